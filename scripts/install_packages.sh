@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what Tessera is built from on Debian 12, as root or through sudo. Does nothing where all of it is there.
+#   scripts/install_packages.sh          to build and render
+#   scripts/install_packages.sh test     to run the tests too
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build pkg-config      # the build
+  libopenmpi-dev openmpi-bin            # messages between ranks, mpirun
+  libpng-dev                            # pictures
+  libcli11-dev                          # the command line
+  libtomlplusplus-dev                   # scene files
+)
+if [ "${1:-}" = test ]; then
+  packages+=(
+    libboost-test-dev                   # unit tests
+    python3                             # command line tests, comparison scripts
+    tachyon-doc                         # other people's scenes
+  )
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "install as root: apt-get install ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "installing: ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/bvh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/exact.h"
+
+namespace tessera::render {
+
+void Box::include(const Box& other) noexcept {
+  lo = {std::min(lo.x, other.lo.x), std::min(lo.y, other.lo.y), std::min(lo.z, other.lo.z)};
+  hi = {std::max(hi.x, other.hi.x), std::max(hi.y, other.hi.y), std::max(hi.z, other.hi.z)};
+}
+
+bool Box::contains(const Vec3& p) const noexcept {
+  return lo.x <= p.x && p.x <= hi.x && lo.y <= p.y && p.y <= hi.y && lo.z <= p.z && p.z <= hi.z;
+}
+
+double Box::half_area() const noexcept {
+  const Vec3 d = hi - lo;
+  return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+Box bounds_of(const Vec3& center, double radius) noexcept {
+  // A computed hit may belong to a sphere larger by some 10u; then round each face outward.
+  const double wide = radius * (1 + 64 * kUnitRoundoff);
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  const auto down = [&](double x) { return std::nextafter(x - wide, -kInf); };
+  const auto up = [&](double x) { return std::nextafter(x + wide, kInf); };
+  return {{down(center.x), down(center.y), down(center.z)}, {up(center.x), up(center.y), up(center.z)}};
+}
+
+SlabTest::SlabTest(const Ray& ray) noexcept : origin_(ray.origin) {
+  // A ray parallel to a slab is inside of it for all t or for none. A huge finite reciprocal says so without
+  // 0 * infinity; a ray inside a face's own plane counts as outside, which loses nothing: boxes are wider than
+  // their spheres.
+  const auto inverse = [](double d) {
+    constexpr double kHuge = 0x1p1000;
+    return d == 0 ? kHuge : std::clamp(1 / d, -kHuge, kHuge);
+  };
+  inverse_ = {inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)};
+}
+
+std::size_t Bvh::memory_bytes() const noexcept {
+  return nodes_.size() * sizeof(Node) + spheres_.size() * sizeof(LeafSphere);
+}
+
+}  // namespace tessera::render

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "render/ray.h"
+#include "render/region.h"
+#include "render/scene.h"
+
+// The two questions that a tracer asks of a scene.
+namespace tessera::render {
+
+/// The first surface along `ray`, which runs in `region`, or nullopt where the ray leaves the scene. Equal
+/// distances go to the lowest surface.
+std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region& region) noexcept;
+
+/// Whether a surface stands between the start of `to_light` and light number `light`.
+/// units:   to_light.direction reaches a point light at t = 1; for a directional light any length > 0
+bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light, const Region& region) noexcept;
+
+}  // namespace tessera::render

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "render/bvh_build.h"
+#include "render/sphere.h"
+
+namespace tessera::render {
+
+namespace {
+
+int sign_of(double x) noexcept {
+  return x > 0 ? 1 : x < 0 ? -1 : 0;
+}
+
+}  // namespace
+
+int side_of_plane(const Vec3& point, const Plane& plane) noexcept {
+  const ExactDifference f = exact_difference(point, plane.point);
+  CompensatedSum distance;
+  distance.add_product(f.hi.x, plane.normal.x);
+  distance.add_product(f.hi.y, plane.normal.y);
+  distance.add_product(f.hi.z, plane.normal.z);
+  distance.add_small(dot(f.lo, plane.normal));
+  return sign_of(distance.value());
+}
+
+Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(kernel) {
+  if (kernel_ == Kernel::tree) bvh_ = build_bvh(data_.spheres);
+  for (const Light& light : data_.lights) {
+    const bool is_point = light.kind == LightKind::point;
+    light_placements_.push_back(is_point ? placement_of(light.vector) : Placement{});
+    for (const Plane& plane : data_.planes) {
+      const int side = is_point ? side_of_plane(light.vector, plane) : -sign_of(dot(plane.normal, light.vector));
+      light_sides_.push_back(static_cast<std::int8_t>(side));
+    }
+  }
+}
+
+Placement Scene::placement_of(const Vec3& point) const {
+  Placement placement;
+  const auto place = [&](const LeafSphere& sphere) {
+    const double power = power_of_point(exact_difference(sphere.center, point), sphere.radius);
+    if (power < 0) placement.enclosing.push_back(sphere.id);
+    if (power == 0) placement.touching.push_back(sphere.id);
+  };
+  if (kernel_ == Kernel::tree) {
+    bvh_.visit_at(point, place);
+  } else {
+    for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
+      const Sphere& sphere = data_.spheres[i];
+      if (sphere.radius > 0) place({sphere.center, sphere.radius, surface_id(i)});
+    }
+  }
+  for (std::size_t i = 0; i != data_.planes.size(); ++i) {
+    if (side_of_plane(point, data_.planes[i]) == 0) placement.touching.push_back(plane_id(i));
+  }
+  std::sort(placement.enclosing.begin(), placement.enclosing.end());
+  std::sort(placement.touching.begin(), placement.touching.end());
+  return placement;
+}
+
+}  // namespace tessera::render

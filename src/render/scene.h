@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "render/bvh.h"
+#include "render/scene_data.h"
+
+// A scene made ready for tracing.
+namespace tessera::render {
+
+/// How spheres are searched. Every kernel gives the same picture, bit for bit.
+enum class Kernel : std::uint8_t {
+  tree,   ///< through the bounding volume hierarchy
+  brute,  ///< every sphere for every ray: the oracle
+};
+
+/// The surfaces that matter at one point: the spheres around it, and all surfaces that go through it.
+struct Placement {
+  std::vector<SurfaceId> enclosing;  ///< spheres that strictly contain the point, ascending
+  std::vector<SurfaceId> touching;   ///< surfaces exactly at the point, ascending
+};
+
+class Scene {
+ public:
+  Scene(SceneData data, Kernel kernel);
+
+  const SceneData& data() const noexcept { return data_; }
+  const Bvh& bvh() const noexcept { return bvh_; }
+
+  std::size_t sphere_count() const noexcept { return data_.spheres.size(); }
+  bool is_sphere(SurfaceId id) const noexcept { return index_of(id) < sphere_count(); }
+  const Sphere& sphere(SurfaceId id) const noexcept { return data_.spheres[index_of(id)]; }
+  const Plane& plane(SurfaceId id) const noexcept { return data_.planes[index_of(id) - sphere_count()]; }
+  SurfaceId plane_id(std::size_t plane) const noexcept { return surface_id(sphere_count() + plane); }
+
+  /// The surfaces that matter at a point light; none for a directional one.
+  const Placement& light_placement(std::size_t light) const noexcept { return light_placements_[light]; }
+
+  /// The side of a plane that a light is on or shines from: -1 behind, 0 on (along), +1 before it.
+  int light_side(std::size_t light, std::size_t plane) const noexcept {
+    return light_sides_[light * data_.planes.size() + plane];
+  }
+
+  Placement placement_of(const Vec3& point) const;
+
+  /// Calls visit(sphere) for every sphere that the ray may meet before `t_max`; see Bvh::visit_along.
+  template <class Visit>
+  void visit_along(const Ray& ray, const double& t_max, Visit&& visit) const {
+    if (kernel_ == Kernel::tree) return bvh_.visit_along(ray, t_max, visit);
+    for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
+      const Sphere& sphere = data_.spheres[i];
+      if (sphere.radius > 0 && visit(LeafSphere{sphere.center, sphere.radius, surface_id(i)})) return;
+    }
+  }
+
+ private:
+  SceneData data_;
+  Kernel kernel_;
+  Bvh bvh_;
+  std::vector<Placement> light_placements_;
+  std::vector<std::int8_t> light_sides_;  ///< lights x planes
+};
+
+/// -1 behind, 0 on, +1 before a plane, as its normal points.
+int side_of_plane(const Vec3& point, const Plane& plane) noexcept;
+
+}  // namespace tessera::render

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/plane.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "render/random.h"
+
+using namespace tessera::render;
+using namespace tessera::render::test;
+
+namespace {
+
+constexpr MaterialIndex kEven{3};
+constexpr MaterialIndex kOdd{7};
+
+Plane board(const Vec3& point, const Vec3& normal, double size) {
+  return {point, normal, kEven, Checker{kOdd, size}};
+}
+
+MaterialIndex expected(double u, double v, double size) {
+  return std::fmod(std::floor(u / size) + std::floor(v / size), 2) == 0 ? kEven : kOdd;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(plane)
+
+BOOST_AUTO_TEST_CASE(plane_without_checker_has_one_material) {
+  const Plane plane{{0, 0, 0}, {0, 0, 1}, kEven, std::nullopt};
+  BOOST_TEST((material_at(plane, {0.5, -7.5, 0}) == kEven));
+}
+
+// N = z: |N_x| = 0 is the first smallest, u = x cross z = -y, v = z cross -y = x. Cells about the origin:
+BOOST_AUTO_TEST_CASE(cells_of_a_floor_alternate_across_zero) {
+  const Plane floor = board({0, 0, 0}, {0, 0, 1}, 1);
+  BOOST_TEST((material_at(floor, {0.5, -0.5, 0}) == kEven), "cell 0 + 0");
+  BOOST_TEST((material_at(floor, {1.5, -0.5, 0}) == kOdd), "cell 0 + 1");
+  BOOST_TEST((material_at(floor, {0.5, 0.5, 0}) == kOdd), "cell -1 + 0");
+  BOOST_TEST((material_at(floor, {-0.5, 0.5, 0}) == kEven), "cell -1 - 1");
+  BOOST_TEST((material_at(floor, {-0.5, -0.5, 0}) == kOdd), "cell 0 - 1");
+  BOOST_TEST((material_at(floor, {-100.5, -0.5, 0}) == kOdd), "cell 0 - 101");
+}
+
+BOOST_AUTO_TEST_CASE(board_starts_at_the_point_of_the_plane_and_cells_have_the_given_size) {
+  const Plane floor = board({10, 20, -3}, {0, 0, 1}, 0.25);
+  BOOST_TEST((material_at(floor, {10.125, 19.875, -3}) == kEven));
+  BOOST_TEST((material_at(floor, {10.375, 19.875, -3}) == kOdd));
+  BOOST_TEST((material_at(floor, {10.375, 19.625, -3}) == kEven));
+  BOOST_TEST((material_at(floor, {9.875, 19.875, -3}) == kOdd));
+}
+
+// N = (0, 3, 4) / 5: u = x cross N = (0, -4, 3) / 5, v = N cross u = (1, 0, 0).
+BOOST_AUTO_TEST_CASE(cells_of_a_tilted_plane_follow_its_own_axes) {
+  const Plane tilted = board({1, 2, 3}, {0, 3, 4}, 2);
+  const Vec3 u{0, -0.8, 0.6};
+  const Vec3 v{1, 0, 0};
+  for (double a = -9.5; a < 10; ++a) {
+    for (double b = -9.5; b < 10; ++b) {
+      const Vec3 point = tilted.point + a * u + b * v;
+      BOOST_REQUIRE((material_at(tilted, point) == expected(a, b, 2)));
+    }
+  }
+}
+
+// Any normal: e_i for the smallest |N_i|, u = e_i x N / |e_i x N|, v = N x u; the length of N plays no part.
+BOOST_AUTO_TEST_CASE(cells_of_any_plane_follow_the_formula) {
+  Random random(81);
+  int wrong = 0;
+  for (int i = 0; i != 5000; ++i) {
+    const Vec3 n = random.direction();
+    const double ax = std::abs(n.x);
+    const double ay = std::abs(n.y);
+    const double az = std::abs(n.z);
+    const Vec3 e = ax <= ay && ax <= az ? Vec3{1, 0, 0} : ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    const Vec3 u = normalized(cross(e, n));
+    const Vec3 v = cross(n, u);
+    const Plane plane = board(random.in_box(10), random.over_decades(0.01, 100) * n, random.over_decades(0.1, 10));
+    const double a = random.uniform(-50, 50);
+    const double b = random.uniform(-50, 50);
+    wrong += material_at(plane, plane.point + a * u + b * v) != expected(a, b, plane.checker->size);
+  }
+  BOOST_TEST(wrong == 0);
+}
+
+// |N_x| = |N_y| = |N_z|: the first axis counts. u = (0, -1, 1) / sqrt 2.
+BOOST_AUTO_TEST_CASE(first_of_equal_axes_gives_the_board) {
+  const Plane plane = board({0, 0, 0}, {1, 1, 1}, 1);
+  const Vec3 u{0, -std::sqrt(0.5), std::sqrt(0.5)};
+  const Vec3 v = cross(normalized({1, 1, 1}), u);
+  BOOST_TEST((material_at(plane, 0.5 * u + 0.5 * v) == kEven));
+  BOOST_TEST((material_at(plane, 1.5 * u + 0.5 * v) == kOdd));
+  BOOST_TEST((material_at(plane, 0.5 * u - 0.5 * v) == kOdd));
+}
+
+// Cells past 2^63: no integer may overflow.
+BOOST_AUTO_TEST_CASE(points_far_out_have_some_material) {
+  const Plane floor = board({0, 0, 0}, {0, 0, 1}, 1e-3);
+  for (const double far : {1e18, -1e18, 1e100, -1e300}) {
+    const MaterialIndex material = material_at(floor, {far, far / 3, 0});
+    BOOST_TEST((material == kEven || material == kOdd));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// sphere.h against the same formulas in quad precision, over decades of the distance.
+#include <algorithm>
+#include <array>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "render/quad.h"
+#include "render/random.h"
+#include "render/sphere.h"
+
+using namespace tessera::render;
+using namespace tessera::render::test;
+
+namespace {
+
+constexpr int kRays = 4000;
+constexpr double u = kUnitRoundoff;
+
+/// A ray from `distance` radii away whose line passes the centre at `passing` radii.
+struct Approach {
+  Vec3 center;
+  double radius;
+  Ray ray;
+
+  Approach(Random& random, double distance, double passing) {
+    radius = random.over_decades(1e-3, 1e3);
+    center = radius * random.in_box(2);
+    const Vec3 away = random.direction();
+    ray.origin = center + distance * radius * away;
+    const Vec3 aim = center + passing * radius * random.perpendicular_to(away);
+    ray.direction = random.over_decades(0.1, 10) / (distance * radius) * (aim - ray.origin);
+  }
+};
+
+/// Largest errors seen: t in units of u t, the normal's length in absolute terms.
+struct Errors {
+  double t = 0;
+  double normal = 0;
+
+  void include(const Approach& a, const Crossing& crossing, Quad exact_t) {
+    const QuadVec at = QuadVec(a.ray.origin) + exact_t * QuadVec(a.ray.direction) - QuadVec(a.center);
+    t = std::max(t, error_of(crossing.t, exact_t) / (u * crossing.t));
+    normal = std::max(normal, error_of(normal_at(crossing, a.ray.direction), (1 / Quad(a.radius)) * at));
+  }
+};
+
+QuadRoots roots_of(const Approach& a) {
+  return {a.ray.origin, a.ray.direction, a.center, a.radius};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(sphere_accuracy)
+
+// |t - exact| <= 8 u t and |N - exact| <= 1e-15 for l < 0.9 r, no matter how far the sphere is.
+BOOST_AUTO_TEST_CASE(entry_and_its_normal_keep_their_digits_over_distance) {
+  Random random(21);
+  for (const double distance : {1.01, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e12}) {
+    Errors errors;
+    for (int i = 0; i != kRays; ++i) {
+      const Approach a(random, distance, random.uniform(0, 0.88));
+      const auto crossing = entry_into(a.ray, norm_of(a.ray.direction), a.center, a.radius);
+      if (distance > 1e7 && roots_of(a).discriminant < 0) continue;
+      BOOST_REQUIRE(crossing.has_value());
+      if (crossing->t > 0.01 * distance * a.radius / length(a.ray.direction))
+        errors.include(a, *crossing, roots_of(a).near);
+    }
+    BOOST_TEST_MESSAGE("entry at D/r " << distance << ": t " << errors.t << " u, normal " << errors.normal);
+    BOOST_TEST(errors.t <= 8);
+    BOOST_TEST(errors.normal <= 1e-15);
+  }
+}
+
+// From inside, t = (b + s) / a or c / (b - s): neither cancels.
+BOOST_AUTO_TEST_CASE(exit_and_its_normal_keep_their_digits) {
+  Random random(22);
+  Errors errors;
+  for (int i = 0; i != 10 * kRays; ++i) {
+    const Approach a(random, random.uniform(0.001, 0.88), 0);
+    Approach turned = a;
+    turned.ray.direction = random.over_decades(0.1, 10) * random.direction();
+    const Crossing crossing = exit_from(turned.ray, norm_of(turned.ray.direction), a.center, a.radius);
+    errors.include(turned, crossing, roots_of(turned).far);
+  }
+  BOOST_TEST_MESSAGE("exit: t " << errors.t << " u, normal " << errors.normal);
+  BOOST_TEST(errors.t <= 8);
+  BOOST_TEST(errors.normal <= 1e-15);
+}
+
+// l / r = 1 - 10^-k: the half chord h is known to 20 u (r / h)^2 relative.
+BOOST_AUTO_TEST_CASE(grazing_chord_is_as_long_as_the_radius_allows_to_know) {
+  Random random(23);
+  double worst = 0;
+  for (int k = 1; k <= 13; ++k) {
+    for (int i = 0; i != kRays; ++i) {
+      const Approach a(random, random.over_decades(2, 1e3), 1 - std::pow(10.0, -k));
+      const DirectionNorm norm = norm_of(a.ray.direction);
+      const Chord chord = chord_of(a.ray, norm, a.center, a.radius);
+      const QuadRoots exact = roots_of(a);
+      if (!(exact.discriminant > 0) || !(chord.discriminant > 0)) continue;
+      const Quad h = square_root(exact.discriminant);
+      const double ratio = a.radius * norm.length / static_cast<double>(h);
+      worst = std::max(worst, error_of(chord.s, h) / static_cast<double>(h) / (u * ratio * ratio));
+    }
+  }
+  BOOST_TEST_MESSAGE("grazing half chord: " << worst << " u (r/h)^2");
+  BOOST_TEST(worst <= 20);
+}
+
+// Hit or miss is right wherever the line passes the sphere's rim by more than 16 u r.
+BOOST_AUTO_TEST_CASE(hit_or_miss_is_right_to_the_rim) {
+  Random random(24);
+  int wrong = 0;
+  for (int i = 0; i != 20 * kRays; ++i) {
+    const double passing = 1 + (random.flip() ? 1 : -1) * random.over_decades(64 * u, 1);
+    const Approach a(random, random.over_decades(3, 1e9), passing);
+    const QuadRoots exact = roots_of(a);
+    const double reach = a.radius * a.radius * dot(a.ray.direction, a.ray.direction);
+    if (error_of(0, exact.discriminant) < 32 * u * reach) continue;
+    const bool hit = entry_into(a.ray, norm_of(a.ray.direction), a.center, a.radius).has_value();
+    wrong += hit != (exact.discriminant > 0);
+  }
+  BOOST_TEST(wrong == 0);
+}
+
+// The cheap test may only reject what quad precision says is missed or behind.
+BOOST_AUTO_TEST_CASE(surely_misses_never_rejects_a_hit) {
+  Random random(25);
+  int contradictions = 0;
+  int rejected = 0;
+  for (int i = 0; i != 50 * kRays; ++i) {
+    const double passing = 1 + (random.flip() ? 1 : -1) * random.over_decades(1e-18, 1);
+    Approach a(random, random.over_decades(1.0000001, 1e9), passing);
+    if (i % 5 == 0) a.ray.direction = random.perpendicular_to(a.center - a.ray.origin);
+    const bool misses = surely_misses(a.ray, norm_of(a.ray.direction), a.center, a.radius);
+    const Quad b = quad_dot(QuadVec(a.center) - QuadVec(a.ray.origin), a.ray.direction);
+    contradictions += misses && roots_of(a).discriminant >= 0 && b > 0;
+    rejected += misses;
+  }
+  BOOST_TEST(contradictions == 0);
+  BOOST_TEST(rejected > 10 * kRays);
+}
+
+// |C - P|^2 - r^2 to u of itself plus what twice the precision loses.
+BOOST_AUTO_TEST_CASE(power_of_a_point_is_good_in_twice_the_precision) {
+  Random random(26);
+  int outside = 0;
+  for (int i = 0; i != 5 * kRays; ++i) {
+    const Approach a(random, i % 2 == 0 ? 1.0 : random.over_decades(1e-3, 1e6), 0);
+    const QuadVec f = QuadVec(a.center) - QuadVec(a.ray.origin);
+    const Quad exact = quad_dot(f, f) - Quad(a.radius) * a.radius;
+    const double power = power_of_point(exact_difference(a.center, a.ray.origin), a.radius);
+    const double size = static_cast<double>(quad_dot(f, f)) + a.radius * a.radius;
+    outside += error_of(power, exact) > 2 * u * error_of(0, exact) + 32 * u * u * size;
+  }
+  BOOST_TEST(outside == 0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
