@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scheduler/master_run.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "scheduler/host.h"
+
+namespace tessera::scheduler {
+namespace {
+
+[[noreturn]] void refuse(Rank from, std::string_view reason) {
+  throw std::runtime_error("rank " + std::to_string(from) + " sent a message that rank 0 cannot accept (" +
+                           std::string(reason) + ")");
+}
+
+std::string_view problem_with(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::accepted:
+      break;
+    case Verdict::duplicate:
+      return "it came before";
+    case Verdict::unassigned:
+      return "a result of a task that the rank does not hold";
+    case Verdict::unknown:
+      return "there is no such rank or task";
+  }
+  return {};
+}
+
+Traffic total(const Transport& transport) {
+  return {transport.sent().count + transport.received().count, transport.sent().bytes + transport.received().bytes};
+}
+
+}  // namespace
+
+MasterRun::MasterRun(Transport& transport, Plan plan, Work work, Accept accept)
+    : transport_(transport),
+      plan_(std::move(plan)),
+      accept_(std::move(accept)),
+      master_(plan_, transport.size()),
+      work_(std::move(work), clock_, [this] { serve(); }),
+      before_(total(transport)) {
+  record_.tasks.resize(plan_.tasks);
+  record_.ranks.resize(transport.size());
+  for (Rank rank = 0; rank < transport.size(); ++rank) record_.ranks[rank].rank = rank;
+  record_.ranks[kMasterRank].host = host_name();
+}
+
+Step MasterRun::step() {
+  if (is_finished()) {
+    transport_.flush();
+    return Step::finished;
+  }
+  const bool got_messages = serve();
+  update_own_seat();
+  const std::optional<TaskId> task = own_.next();
+  if (task) render(*task);
+  return task || got_messages ? Step::worked : Step::idle;
+}
+
+bool MasterRun::serve() {
+  bool got_messages = false;
+  while (const std::optional<Envelope> envelope = transport_.receive()) {
+    got_messages = true;
+    std::visit([&](const auto& message) { on(envelope->source, message); }, decode(envelope->bytes));
+  }
+  return got_messages;
+}
+
+void MasterRun::on(Rank from, const HelloMessage& hello) {
+  tell_master(Hello{from});
+  record_.ranks[from].host = hello.host;
+}
+
+void MasterRun::on(Rank from, const ResultMessage& result) {
+  // The answer goes out first: the worker needs it more urgently than the picture needs the pixels.
+  tell_master(Result{from, result.task, seconds_from_ns(result.busy_ns)});
+  accept_(result.task, result.payload);
+
+  // Take down what happened.
+  busy_ns_ += result.busy_ns;
+  RankRecord& rank = record_.ranks[from];
+  ++rank.tasks;
+  rank.busy_s += seconds_from_ns(result.busy_ns);
+  record_.tasks[index_of(result.task)] = {
+      .task = result.task,
+      .rank = from,
+      .start_s = seconds_from_ns(result.start_ns),
+      .end_s = seconds_from_ns(result.start_ns + result.busy_ns),
+      .bytes = result.payload.size(),
+  };
+  if (master_.is_done()) record_.makespan_s = seconds_from_ns(clock_.elapsed_ns());
+}
+
+void MasterRun::on(Rank from, const Malformed& malformed) {
+  refuse(from, malformed.problem);
+}
+void MasterRun::on(Rank from, const AssignMessage&) {
+  refuse(from, "an assignment");
+}
+void MasterRun::on(Rank from, const StopMessage&) {
+  refuse(from, "a stop");
+}
+
+void MasterRun::render(TaskId task) {
+  const TimedResult result = work_.run(task);
+  update_own_seat();
+  on(kMasterRank, ResultMessage{task, result.start_ns, result.busy_ns, result.payload});
+}
+
+void MasterRun::update_own_seat() {
+  if (master_.is_done()) return;
+  Workload load{.ranks = transport_.size(), .tasks = plan_.tasks, .mean_task_s = std::nullopt};
+  if (master_.accepted() > 0) load.mean_task_s = seconds_from_ns(busy_ns_) / master_.accepted();
+  const bool renders = should_render(plan_, load);
+  if (renders == seated_) return;
+  seated_ = renders;
+  tell_master(renders ? Event{Hello{kMasterRank}} : Event{Leave{kMasterRank}});
+}
+
+void MasterRun::tell_master(const Event& event) {
+  actions_.clear();
+  const Verdict verdict = master_.handle(event, actions_);
+  if (verdict != Verdict::accepted) {
+    refuse(std::visit([](const auto& happened) { return happened.rank; }, event), problem_with(verdict));
+  }
+  for (const Action& action : actions_) {
+    std::visit([&](const auto& wanted) { perform(wanted); }, action);
+  }
+}
+
+void MasterRun::perform(const Assign& assign) {
+  if (assign.rank == kMasterRank) {
+    own_.assign(assign.runs);
+  } else {
+    transport_.send(assign.rank, encode(AssignMessage{assign.runs}));
+  }
+}
+
+void MasterRun::perform(const Stop& stop) {
+  transport_.send(stop.rank, encode(StopMessage{}));
+  ++stopped_;
+}
+
+void MasterRun::perform(const Done&) {}  // the makespan is taken once the result is in its place
+
+bool MasterRun::is_finished() const noexcept {
+  return master_.is_done() && stopped_ == transport_.size() - 1;
+}
+
+RunRecord MasterRun::take_record() {
+  for (RankRecord& rank : record_.ranks) rank.wait_s = std::max(0.0, record_.makespan_s - rank.busy_s);
+  const Traffic now = total(transport_);
+  record_.messages = {now.count - before_.count, now.bytes - before_.bytes};
+  return std::move(record_);
+}
+
+}  // namespace tessera::scheduler

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scheduler/message.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+namespace tessera::scheduler {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "messages are written in the host's byte order");
+
+using Kind = std::array<char, 4>;
+constexpr Kind kHello{'H', 'E', 'L', 'O'};
+constexpr Kind kAssign{'A', 'S', 'G', 'N'};
+constexpr Kind kResult{'R', 'S', 'L', 'T'};
+constexpr Kind kStop{'S', 'T', 'O', 'P'};
+
+struct WireHello {
+  Kind kind = kHello;
+  std::uint32_t version = kProtocolVersion;
+  std::uint32_t pid = 0;
+  std::array<char, 52> host{};  // ends with at least one 0, and nothing but 0 follows
+};
+
+struct WireRun {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+struct WireAssign {
+  Kind kind = kAssign;
+  std::uint32_t run_count = 0;
+  std::array<WireRun, RunList::kCapacity> runs{};  // those beyond run_count are 0
+};
+
+struct WireResult {
+  Kind kind = kResult;
+  std::uint32_t task = 0;
+  std::uint64_t start_ns = 0;
+  std::uint64_t busy_ns = 0;
+};
+
+struct WireStop {
+  Kind kind = kStop;
+};
+
+template <class Wire>
+constexpr bool is_plain = std::is_trivially_copyable_v<Wire>&& std::has_unique_object_representations_v<Wire>;
+static_assert(is_plain<WireHello> && sizeof(WireHello) == kHelloBytes);
+static_assert(is_plain<WireAssign> && sizeof(WireAssign) == kAssignBytes && kAssignBytes <= 64);
+static_assert(is_plain<WireResult> && sizeof(WireResult) == kResultHeaderBytes);
+static_assert(is_plain<WireStop> && sizeof(WireStop) == kStopBytes);
+
+template <class Wire>
+Bytes to_bytes(const Wire& wire) {
+  const auto bytes = std::as_bytes(std::span(&wire, 1));
+  return Bytes(bytes.begin(), bytes.end());
+}
+
+template <class Wire>
+Wire from_bytes(std::span<const std::byte> bytes) {
+  Wire wire;
+  std::memcpy(&wire, bytes.data(), sizeof wire);
+  return wire;
+}
+
+Message decode_hello(std::span<const std::byte> bytes) {
+  const auto wire = from_bytes<WireHello>(bytes);
+  if (wire.version != kProtocolVersion) return Malformed{"it speaks another version of the protocol"};
+  const auto end = std::find(wire.host.begin(), wire.host.end(), '\0');
+  if (end == wire.host.end() || std::any_of(end, wire.host.end(), [](char c) { return c != '\0'; })) {
+    return Malformed{"its host name does not end"};
+  }
+  return HelloMessage{wire.pid, std::string(wire.host.begin(), end)};
+}
+
+Message decode_assign(std::span<const std::byte> bytes) {
+  const auto wire = from_bytes<WireAssign>(bytes);
+  if (wire.run_count == 0 || wire.run_count > RunList::kCapacity)
+    return Malformed{"its number of runs is out of range"};
+  AssignMessage assign;
+  for (std::uint32_t i = 0; i < wire.runs.size(); ++i) {
+    const WireRun& run = wire.runs[i];
+    if (i >= wire.run_count) {
+      if (run.first != 0 || run.count != 0) return Malformed{"there is something where a run is unused"};
+      continue;
+    }
+    if (run.count == 0) return Malformed{"it has an empty run"};
+    if (run.count - 1 > std::numeric_limits<std::uint32_t>::max() - run.first) {
+      return Malformed{"a run goes past the last task number"};
+    }
+    assign.runs.push(TaskRun{TaskId{run.first}, run.count});
+  }
+  return assign;
+}
+
+Message decode_result(std::span<const std::byte> bytes) {
+  const auto wire = from_bytes<WireResult>(bytes);
+  return ResultMessage{TaskId{wire.task}, wire.start_ns, wire.busy_ns, bytes.subspan(sizeof wire)};
+}
+
+}  // namespace
+
+Bytes encode(const HelloMessage& hello) {
+  WireHello wire;
+  wire.pid = hello.pid;
+  std::copy_n(hello.host.begin(), std::min(hello.host.size(), wire.host.size() - 1), wire.host.begin());
+  return to_bytes(wire);
+}
+
+Bytes encode(const AssignMessage& assign) {
+  assert(!assign.runs.empty());
+  WireAssign wire;
+  for (const TaskRun& run : assign.runs) wire.runs[wire.run_count++] = {index_of(run.first), run.count};
+  return to_bytes(wire);
+}
+
+Bytes encode(const ResultMessage& result, Bytes&& payload) {
+  WireResult wire;
+  wire.task = index_of(result.task);
+  wire.start_ns = result.start_ns;
+  wire.busy_ns = result.busy_ns;
+  const auto header = std::as_bytes(std::span(&wire, 1));
+  payload.insert(payload.begin(), header.begin(), header.end());
+  return std::move(payload);
+}
+
+Bytes encode(const StopMessage&) {
+  return to_bytes(WireStop{});
+}
+
+Message decode(std::span<const std::byte> bytes) {
+  constexpr Malformed kWrongLength{"its length does not fit its kind"};
+  Kind kind;
+  if (bytes.size() < kind.size()) return Malformed{"it is too short to have a kind"};
+  std::memcpy(kind.data(), bytes.data(), kind.size());
+  if (kind == kHello) return bytes.size() == kHelloBytes ? decode_hello(bytes) : kWrongLength;
+  if (kind == kAssign) return bytes.size() == kAssignBytes ? decode_assign(bytes) : kWrongLength;
+  if (kind == kResult) return bytes.size() >= kResultHeaderBytes ? decode_result(bytes) : kWrongLength;
+  if (kind == kStop) return bytes.size() == kStopBytes ? Message{StopMessage{}} : kWrongLength;
+  return Malformed{"it is of no known kind"};
+}
+
+}  // namespace tessera::scheduler

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mpi.h>
+
+// Internal to this folder: the headers for others don't include mpi.h.
+namespace tessera::scheduler::mpi {
+
+/// Owns a communicator whose errors are returned, not fatal.
+class Communicator {
+ public:
+  /// All processes of the job, apart from whatever else uses MPI_COMM_WORLD. Collective.
+  static Communicator of_job();
+
+  /// The processes of `whole` that share this one's memory. Collective.
+  static Communicator of_node(const Communicator& whole);
+
+  Communicator(Communicator&& other) noexcept;
+  Communicator& operator=(Communicator&&) = delete;
+  ~Communicator();
+
+  MPI_Comm get() const noexcept { return handle_; }
+  int rank() const;
+  int size() const;
+
+ private:
+  explicit Communicator(MPI_Comm handle) : handle_(handle) {}
+
+  MPI_Comm handle_;
+};
+
+}  // namespace tessera::scheduler::mpi

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "scheduler/bytes.h"
+#include "scheduler/task.h"
+
+// The life of MPI in a process, and the few things that all ranks do together.
+namespace tessera::scheduler::mpi {
+
+class Communicator;
+
+/// MPI is there while this lives; make one, early in main, and never a second.
+///
+/// How errors end a job: the others cannot know that a rank failed, they would wait for ever. So a caller catches what
+/// a rank throws while the session is alive, prints its line, and calls `abort` with the exit code, which ends every
+/// rank and becomes mpirun's own code. As a safety net a session that an exception passes through does the same with
+/// code 70. Only an error that every rank meets alike may take the normal way out.
+class Session {
+ public:
+  /// throws:  std::runtime_error where MPI cannot give what is needed
+  Session(int& argc, char**& argv);
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  ~Session();
+
+  Rank rank() const noexcept { return rank_; }
+  std::uint32_t size() const noexcept { return size_; }
+  std::uint32_t nodes() const noexcept { return nodes_; }
+
+  /// Whether on this rank's node there are more ranks than cores that they may run on.
+  bool is_oversubscribed() const noexcept { return oversubscribed_; }
+
+  /// What implements MPI, "Open MPI v4.1.4".
+  std::string library() const;
+
+  /// Returns when all ranks are here. Waiting gives the core away.
+  void barrier();
+
+  /// Replaces `bytes` on every rank by those of rank 0, which may come much later than the others: waiting gives the
+  /// core away. They travel in pieces of `piece_bytes`, for MPI counts in int.
+  /// shapes:  1 <= piece_bytes < 2^31, the same on all ranks
+  /// throws:  std::invalid_argument, std::runtime_error
+  void broadcast(Bytes& bytes, std::size_t piece_bytes = std::size_t{1} << 28);
+
+  /// Ends every rank of the job at once; `code` becomes the job's exit code.
+  [[noreturn]] void abort(int code) noexcept;
+
+  const Communicator& communicator() const noexcept { return *communicator_; }
+
+ private:
+  int exceptions_before_;
+  std::unique_ptr<Communicator> communicator_;
+  Rank rank_ = 0;
+  std::uint32_t size_ = 1;
+  std::uint32_t nodes_ = 1;
+  bool oversubscribed_ = false;
+};
+
+}  // namespace tessera::scheduler::mpi

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scheduler/run.h"
+
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "scheduler/loopback.h"
+#include "scheduler/master_run.h"
+#include "scheduler/stepper.h"
+#include "scheduler/worker_run.h"
+
+namespace tessera::scheduler {
+namespace {
+
+// So many steps in a row find nothing only if nothing will ever come: a message is held back with probability 1/4.
+constexpr std::uint64_t kIdleStepsPerRank = 1000;
+
+}  // namespace
+
+RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, const Accept& accept) {
+  MasterRun master(transport, plan, work, accept);
+  run_to_end(master, transport);
+  return master.take_record();
+}
+
+void run_worker(Transport& transport, const Work& work) {
+  WorkerRun worker(transport, work);
+  run_to_end(worker, transport);
+}
+
+RunRecord run_in_process(std::uint32_t ranks, std::uint64_t seed, const Plan& plan, const Work& work,
+                         const Accept& accept) {
+  require_feasible(plan, ranks);
+  std::mt19937_64 random(seed);
+  LoopbackNetwork network(ranks, random());  // a seed of its own, or deliveries would follow the steps
+  MasterRun master(network.transport(kMasterRank), plan, work, accept);
+  std::vector<std::unique_ptr<WorkerRun>> workers;
+  for (Rank rank = 1; rank < ranks; ++rank) {
+    workers.push_back(std::make_unique<WorkerRun>(network.transport(rank), work));
+  }
+
+  std::vector<Rank> unfinished(ranks);
+  for (Rank rank = 0; rank < ranks; ++rank) unfinished[rank] = rank;
+  std::uint64_t idle_steps = 0;
+  while (!unfinished.empty()) {
+    const std::size_t chosen = random() % unfinished.size();
+    const Rank rank = unfinished[chosen];
+    const Step step = rank == kMasterRank ? master.step() : workers[rank - 1]->step();
+    idle_steps = step == Step::idle ? idle_steps + 1 : 0;
+    if (idle_steps > kIdleStepsPerRank * ranks) throw std::logic_error("every rank waits for another one");
+    if (step != Step::finished) continue;
+    unfinished[chosen] = unfinished.back();
+    unfinished.pop_back();
+  }
+  return master.take_record();
+}
+
+}  // namespace tessera::scheduler

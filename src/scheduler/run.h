@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "scheduler/plan.h"
+#include "scheduler/record.h"
+#include "scheduler/transport.h"
+#include "scheduler/work.h"
+
+// Runs a plan to its end. Where the ranks are processes, rank 0 calls run_master and the others run_worker, all of them
+// at the same moment (after a barrier), for there a rank's clock starts.
+namespace tessera::scheduler {
+
+/// Hands out the plan's tasks, accepts each result once, and renders too if its role says so. The makespan ends with
+/// the last acceptance; the call returns when every worker has been sent home. With one rank no message is sent.
+/// throws:  std::invalid_argument where the plan is not feasible, std::runtime_error where a rank breaks the protocol,
+///          and what `work` and `accept` throw. The other ranks then wait for ever: the caller ends them.
+RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, const Accept& accept);
+
+/// Renders what rank 0 assigns until it says stop.
+/// throws:  std::runtime_error on a message that it cannot follow, and what `work` throws
+void run_worker(Transport& transport, const Work& work);
+
+/// The same with all ranks in this thread: a random rank takes the next step, messages arrive in a random order, and
+/// both follow from `seed`. One rank does without either.
+/// throws:  as run_master and run_worker; std::logic_error if no rank makes progress any more
+RunRecord run_in_process(std::uint32_t ranks, std::uint64_t seed, const Plan& plan, const Work& work,
+                         const Accept& accept);
+
+}  // namespace tessera::scheduler

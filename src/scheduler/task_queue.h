@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scheduler/plan.h"
+#include "scheduler/task.h"
+
+// The tasks that nobody has yet, in the order in which they are handed out.
+namespace tessera::scheduler {
+
+/// Each task comes out once. Owned tasks come out in ascending order, each to its owner; the others in ascending
+/// order or, where the plan predicts costs and its policy hands out single tasks, dearest first.
+class TaskQueue {
+ public:
+  TaskQueue(const Plan& plan, std::uint32_t ranks);
+
+  /// Tasks that `rank` can still get.
+  std::uint32_t remaining(Rank rank) const noexcept;
+
+  /// Takes up to `most` tasks for `rank`; fewer where they run out or lie in more runs than a list holds.
+  RunList take(Rank rank, std::uint32_t most) noexcept;
+
+ private:
+  std::uint32_t& cursor_of(Rank rank) noexcept { return cursors_[cursors_.size() == 1 ? 0 : rank]; }
+  std::uint32_t cursor_of(Rank rank) const noexcept { return cursors_[cursors_.size() == 1 ? 0 : rank]; }
+
+  std::uint32_t tasks_;
+  std::uint32_t stride_;                ///< from one task of a rank to the next: 1, or P where tasks are owned
+  std::vector<std::uint32_t> cursors_;  ///< next position, one per owner or one for all
+  std::vector<TaskId> order_;           ///< position -> task, empty where they are the same
+};
+
+}  // namespace tessera::scheduler

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scheduler/loopback.h"
+
+#include <boost/test/unit_test.hpp>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace tessera::scheduler {
+namespace {
+
+constexpr std::uint32_t kRanks = 4;
+constexpr std::uint8_t kMessages = 20;
+
+using Delivery = std::pair<Rank, std::uint8_t>;  // source, number within the source
+
+// Every rank but the last sends its numbered messages to the last one; what arrives there, in order.
+std::vector<Delivery> deliveries(std::uint64_t seed) {
+  LoopbackNetwork network(kRanks, seed);
+  for (std::uint8_t number = 0; number < kMessages; ++number) {
+    for (Rank rank = 0; rank + 1 < kRanks; ++rank) {
+      network.transport(rank).send(kRanks - 1, Bytes{std::byte{number}});
+    }
+  }
+  std::vector<Delivery> arrived;
+  while (arrived.size() < std::size_t{kMessages} * (kRanks - 1)) {
+    const auto envelope = network.transport(kRanks - 1).receive();
+    if (envelope) arrived.emplace_back(envelope->source, std::to_integer<std::uint8_t>(envelope->bytes.at(0)));
+  }
+  return arrived;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(loopback_network)
+
+BOOST_AUTO_TEST_CASE(messages_between_two_ranks_keep_their_order) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    std::vector<std::uint8_t> next(kRanks, 0);
+    for (const auto& [source, number] : deliveries(seed)) BOOST_TEST(number == next[source]++);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(equal_seeds_deliver_alike) {
+  BOOST_TEST((deliveries(7) == deliveries(7)));
+}
+
+BOOST_AUTO_TEST_CASE(different_seeds_mix_the_sources_differently) {
+  std::set<std::vector<Delivery>> histories;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) histories.insert(deliveries(seed));
+  BOOST_TEST(histories.size() == 20U);
+}
+
+BOOST_AUTO_TEST_CASE(a_message_may_still_be_on_its_way) {
+  int late = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    LoopbackNetwork network(2, seed);
+    network.transport(0).send(1, Bytes(1));
+    if (!network.transport(1).receive()) ++late;
+  }
+  BOOST_TEST(late > 0);
+  BOOST_TEST(late < 100);
+}
+
+BOOST_AUTO_TEST_CASE(both_ends_count_messages_and_bytes) {
+  LoopbackNetwork network(2, 0);
+  network.transport(0).send(1, Bytes(5));
+  network.transport(0).send(1, Bytes());
+  int arrived = 0;
+  while (arrived < 2) arrived += network.transport(1).receive().has_value() ? 1 : 0;
+  BOOST_TEST((network.transport(0).sent() == Traffic{2, 5}));
+  BOOST_TEST((network.transport(1).received() == Traffic{2, 5}));
+  BOOST_TEST((network.transport(0).received() == Traffic{}));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace tessera::scheduler

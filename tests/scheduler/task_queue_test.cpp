@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scheduler/task_queue.h"
+
+#include <boost/test/unit_test.hpp>
+#include <vector>
+
+namespace tessera::scheduler {
+namespace {
+
+Plan plan_of(Policy policy, std::uint32_t tasks, std::vector<double> costs = {}) {
+  Plan plan;
+  plan.policy = policy;
+  plan.tasks = tasks;
+  plan.costs = std::move(costs);
+  return plan;
+}
+
+std::vector<std::uint32_t> take_all(TaskQueue& queue, Rank rank, std::uint32_t at_a_time) {
+  std::vector<std::uint32_t> taken;
+  while (queue.remaining(rank) > 0) {
+    for (const TaskRun& run : queue.take(rank, at_a_time)) {
+      for (std::uint32_t i = 0; i < run.count; ++i) taken.push_back(index_of(run.first) + i);
+    }
+  }
+  return taken;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(task_queue)
+
+BOOST_AUTO_TEST_CASE(shared_tasks_come_in_ascending_order_whoever_takes_them) {
+  TaskQueue queue(plan_of(Policy::guided, 10), 4);
+  BOOST_TEST((queue.take(2, 3) == [] {
+    RunList runs;
+    runs.push(TaskRun{TaskId{0}, 3});
+    return runs;
+  }()));
+  BOOST_TEST(queue.remaining(1) == 7U);
+  BOOST_TEST(take_all(queue, 1, 4) == (std::vector<std::uint32_t>{3, 4, 5, 6, 7, 8, 9}),
+             boost::test_tools::per_element());
+  BOOST_TEST(queue.remaining(2) == 0U);
+  BOOST_TEST(queue.take(2, 1).empty());
+}
+
+BOOST_AUTO_TEST_CASE(owned_tasks_come_to_rank_i_mod_p) {
+  for (const Policy policy : {Policy::static_bands, Policy::cyclic_rows}) {
+    for (const std::uint32_t ranks : {1U, 2U, 3U, 7U, 20U}) {
+      for (const std::uint32_t tasks : {0U, 1U, 6U, 7U, 8U, 19U}) {
+        TaskQueue queue(plan_of(policy, tasks), ranks);
+        for (Rank rank = 0; rank < ranks; ++rank) {
+          std::vector<std::uint32_t> owned;
+          for (std::uint32_t task = rank; task < tasks; task += ranks) owned.push_back(task);
+          BOOST_TEST(queue.remaining(rank) == owned.size());
+          BOOST_TEST(take_all(queue, rank, 5) == owned, boost::test_tools::per_element());
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(predicted_costs_bring_the_dearest_task_first_and_keep_equals_in_order) {
+  for (const Policy policy : {Policy::dynamic, Policy::self_scheduling}) {
+    TaskQueue queue(plan_of(policy, 6, {1, 5, 2, 5, 0, 2}), 3);
+    BOOST_TEST(take_all(queue, 1, 2) == (std::vector<std::uint32_t>{1, 3, 2, 5, 0, 4}),
+               boost::test_tools::per_element());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(runs_of_tasks_keep_their_order_whatever_they_cost) {
+  TaskQueue queue(plan_of(Policy::guided, 4, {1, 5, 2, 5}), 2);
+  BOOST_TEST(take_all(queue, 0, 2) == (std::vector<std::uint32_t>{0, 1, 2, 3}), boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(a_take_ends_where_its_runs_are_used_up) {
+  TaskQueue queue(plan_of(Policy::cyclic_rows, 100), 2);
+  BOOST_TEST(queue.take(0, 50).tasks() == RunList::kCapacity);
+  BOOST_TEST(queue.remaining(0) == 47U);
+  TaskQueue shared(plan_of(Policy::dynamic, 100), 2);
+  BOOST_TEST(shared.take(0, 50).tasks() == 50U);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace tessera::scheduler
