@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Each from a Debian 12 package; scripts/install_packages.sh installs them all.
 find_package(MPI REQUIRED COMPONENTS CXX)   # libopenmpi-dev: messages between ranks
+find_package(PNG REQUIRED)                  # libpng-dev: pictures
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)  # libtomlplusplus-dev: scenes, with line and column of every value
 if(TESSERA_BUILD_TESTS)
   find_package(Boost 1.74 REQUIRED COMPONENTS unit_test_framework)     # libboost-test-dev
 endif()

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/stats.h"
+
+#include <toml++/toml.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "io/error.h"
+#include "io/output_file.h"
+
+namespace tessera::io {
+namespace {
+
+std::int64_t count(std::uint64_t n) {
+  if (!std::in_range<std::int64_t>(n)) throw std::out_of_range("a count in the statistics is too large");
+  return static_cast<std::int64_t>(n);
+}
+
+// The shortest text that reads back as the same double.
+std::string shortest(double value) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  return error == std::errc{} ? std::string(text, end) : std::string("nan");
+}
+
+toml::table to_table(const Stats::Scene& scene) {
+  return toml::table{{"spheres", count(scene.spheres)},
+                     {"planes", count(scene.planes)},
+                     {"lights", count(scene.lights)},
+                     {"materials", count(scene.materials)}};
+}
+
+toml::table to_table(const Stats::Image& image) {
+  return toml::table{
+      {"width", image.width}, {"height", image.height}, {"samples", image.samples}, {"max_bounces", image.max_bounces}};
+}
+
+toml::table to_table(const Stats::Mpi& mpi) {
+  return toml::table{{"size", mpi.size}, {"nodes", mpi.nodes}, {"library", mpi.library}};
+}
+
+toml::table to_table(const Stats::Schedule& schedule) {
+  return toml::table{{"policy", schedule.policy},           {"tile_width", schedule.tile_width},
+                     {"tile_height", schedule.tile_height}, {"tiles", count(schedule.tiles)},
+                     {"prefetch", schedule.prefetch},       {"master", schedule.master}};
+}
+
+toml::table to_table(const Stats::Times& time) {
+  return toml::table{{"read", time.read},     {"broadcast", time.broadcast}, {"build", time.build},
+                     {"render", time.render}, {"write", time.write},         {"total", time.total}};
+}
+
+toml::table to_table(const Stats::Rays& rays) {
+  return toml::table{{"primary", count(rays.primary)}, {"shadow", count(rays.shadow)}, {"mirror", count(rays.mirror)}};
+}
+
+toml::table to_table(const Stats::Rank& rank) {
+  return toml::table{
+      {"rank", rank.rank},        {"host", rank.host},     {"tiles", count(rank.tiles)}, {"pixels", count(rank.pixels)},
+      {"rays", count(rank.rays)}, {"busy_s", rank.busy_s}, {"wait_s", rank.wait_s}};
+}
+
+toml::table to_table(const Stats::Balance& balance) {
+  return toml::table{{"imbalance", balance.imbalance},           {"load_balance", balance.load_balance},
+                     {"efficiency", balance.efficiency},         {"tail_s", balance.tail_s},
+                     {"graham_bound_s", balance.graham_bound_s}, {"makespan_s", balance.makespan_s}};
+}
+
+toml::table to_table(const Stats::Messages& messages) {
+  return toml::table{{"count", count(messages.count)}, {"bytes", count(messages.bytes)}};
+}
+
+}  // namespace
+
+std::string to_json(const Stats& stats) {
+  toml::table skipped;
+  for (const auto& [technique, n] : stats.skipped) skipped.insert(technique, count(n));
+  toml::array ranks;
+  for (const Stats::Rank& rank : stats.ranks) ranks.push_back(to_table(rank));
+
+  const toml::table all{{"schema", stats.schema},
+                        {"version", stats.version},
+                        {"command", stats.command},
+                        {"scene", to_table(stats.scene)},
+                        {"image", to_table(stats.image)},
+                        {"mpi", to_table(stats.mpi)},
+                        {"schedule", to_table(stats.schedule)},
+                        {"time_s", to_table(stats.time_s)},
+                        {"rays", to_table(stats.rays)},
+                        {"skipped", std::move(skipped)},
+                        {"ranks", std::move(ranks)},
+                        {"balance", to_table(stats.balance)},
+                        {"messages", to_table(stats.messages)}};
+  std::ostringstream json;
+  json << toml::json_formatter(all) << "\n";
+  return json.str();
+}
+
+std::string tile_stats_csv(std::span<const TileRow> rows) {
+  std::string csv = "tile,x,y,width,height,rank,start_s,end_s,rays,bytes\n";
+  for (const TileRow& row : rows) {
+    for (const std::uint64_t n : {row.tile, std::uint64_t{row.x}, std::uint64_t{row.y}, std::uint64_t{row.width},
+                                  std::uint64_t{row.height}, std::uint64_t{row.rank}}) {
+      csv += std::to_string(n) + ",";
+    }
+    csv += shortest(row.start_s) + "," + shortest(row.end_s) + ",";
+    csv += std::to_string(row.rays) + "," + std::to_string(row.bytes) + "\n";
+  }
+  return csv;
+}
+
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  if (path == "-") {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+      throw Error(ErrorKind::io_failure, std::string("standard output: cannot write (") + std::strerror(errno) + ")");
+    }
+    return;
+  }
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace tessera::io
