@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <vector>
+
+#include "app/exit_code.h"
+#include "app/version.h"
+#include "io/suggest.h"
+
+namespace tessera::app {
+namespace {
+
+/// All of `text` as a whole number, or nullopt.
+std::optional<std::uint32_t> whole_number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+std::uint32_t positive(const std::string& option, std::string_view text, const std::string& whole) {
+  const auto value = whole_number(text);
+  if (!value || *value == 0) throw UsageError(option + ": \"" + whole + "\" is not a size (whole numbers >= 1)");
+  return *value;
+}
+
+Size size_of(const std::string& option, const std::string& text) {
+  const auto parts = split(text, 'x');
+  if (parts.size() != 2) throw UsageError(option + ": \"" + text + "\" is not WIDTHxHEIGHT, for example 1280x720");
+  return {positive(option, parts[0], text), positive(option, parts[1], text)};
+}
+
+Size tile_size_of(const std::string& option, const std::string& text) {
+  if (text.find('x') != std::string::npos) return size_of(option, text);
+  const std::uint32_t side = positive(option, text, text);
+  return {side, side};
+}
+
+render::Rect crop_of(const std::string& option, const std::string& text) {
+  const auto parts = split(text, ',');
+  std::vector<std::uint32_t> numbers;
+  for (const std::string_view part : parts) {
+    if (const auto number = whole_number(part)) numbers.push_back(*number);
+  }
+  if (parts.size() != 4 || numbers.size() != 4 || numbers[2] == 0 || numbers[3] == 0) {
+    throw UsageError(option + ": \"" + text + "\" is not X,Y,WIDTH,HEIGHT in pixels, for example 100,50,320,200");
+  }
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+/// Adds an option whose value is one of a few names.
+template <class Value>
+void add_choice(CLI::App& app, const std::string& option, std::vector<std::pair<std::string, Value>> choices,
+                const std::string& help, std::function<void(Value)> set) {
+  std::string names;
+  for (const auto& [name, value] : choices) names += (names.empty() ? "" : "|") + name;
+  const auto choose = [=](const std::string& text) {
+    std::vector<std::string> known;
+    for (const auto& [name, value] : choices) {
+      if (name == text) return set(value);
+      known.push_back(name);
+    }
+    throw UsageError(option + ": unknown value \"" + text + "\"" + io::did_you_mean(text, known) + " (one of " + names +
+                     ")");
+  };
+  app.add_option_function<std::string>(option, choose, help)->type_name(names);
+}
+
+void add_picture_options(CLI::App& app, RenderOptions& options) {
+  const auto group = app.add_option_group("Picture", "what to render; given here, these win over the scene");
+  group
+      ->add_option_function<std::string>(
+          "-r,--resolution", [&](const std::string& text) { options.resolution = size_of("--resolution", text); },
+          "width and height in pixels")
+      ->type_name("WxH");
+  group->add_option("-s,--spp", options.samples, "samples per pixel, a square number")->type_name("N");
+  group->add_option("-b,--max-bounces", options.max_bounces, "mirror bounces")->type_name("N");
+  group
+      ->add_option_function<std::string>(
+          "--crop", [&](const std::string& text) { options.crop = crop_of("--crop", text); },
+          "render this part of the picture only")
+      ->type_name("X,Y,W,H");
+  add_choice<std::uint32_t>(*group, "--bits", {{"8", 8}, {"16", 16}}, "bits per channel of PNG and PPM",
+                            [&](std::uint32_t bits) { options.bits = bits; });
+  add_choice<render::Transfer>(
+      *group, "--transfer", {{"srgb", render::Transfer::srgb}, {"none", render::Transfer::none}},
+      "curve from linear to the picture's numbers", [&](auto value) { options.transfer = value; });
+  add_choice<render::Shade>(*group, "--shade", {{"phong", render::Shade::phong}, {"blinn", render::Shade::blinn}},
+                            "highlight by R.V or by the half vector", [&](auto value) { options.shade = value; });
+}
+
+void add_schedule_options(CLI::App& app, RenderOptions& options) {
+  using scheduler::MasterRole;
+  using scheduler::Policy;
+  const auto group = app.add_option_group("Schedule", "how ranks share the work; the picture stays the same");
+  group
+      ->add_option_function<std::string>(
+          "--tile-size", [&](const std::string& text) { options.tile = tile_size_of("--tile-size", text); },
+          "tile side in pixels, or width and height [16]")
+      ->type_name("N|WxH");
+  std::vector<std::pair<std::string, Policy>> policies;
+  for (const Policy policy :
+       {Policy::dynamic, Policy::static_bands, Policy::cyclic_rows, Policy::self_scheduling, Policy::guided}) {
+    policies.emplace_back(name_of(policy), policy);
+  }
+  add_choice<Policy>(*group, "--schedule", policies, "who renders which tiles [dynamic]",
+                     [&](Policy policy) { options.policy = policy; });
+  add_choice<MasterRole>(
+      *group, "--master",
+      {{"auto", MasterRole::automatic}, {"dedicated", MasterRole::dedicated}, {"rendering", MasterRole::rendering}},
+      "whether rank 0 renders too [auto: while that pays]", [&](MasterRole role) { options.master = role; });
+  group
+      ->add_option_function<std::string>(
+          "--prefetch",
+          [&](const std::string& text) {
+            options.prefetch =
+                text == "auto" ? std::nullopt : std::optional<unsigned>(positive("--prefetch", text, text));
+          },
+          "tiles that a worker holds [auto]")
+      ->type_name("auto|N");
+  add_choice<render::Kernel>(
+      *group, "--kernel",
+      {{"auto", render::Kernel::tree}, {"scalar", render::Kernel::tree}, {"brute", render::Kernel::brute}},
+      "how spheres are searched [auto]", [&](auto kernel) { options.kernel = kernel; });
+}
+
+void add_report_options(CLI::App& app, RenderOptions& options) {
+  const auto group = app.add_option_group("Report", "\"-\" as FILE is standard output");
+  group->add_option("--stats", options.stats, "write times, rays and load balance as JSON")->type_name("FILE");
+  group->add_option("--tile-stats", options.tile_stats, "write each tile's rank and times as CSV")->type_name("FILE");
+  add_choice<ProgressStyle>(*group, "--progress",
+                            {{"auto", ProgressStyle::automatic},
+                             {"bar", ProgressStyle::bar},
+                             {"plain", ProgressStyle::plain},
+                             {"none", ProgressStyle::none}},
+                            "how progress is shown [auto]", [&](ProgressStyle style) { options.progress = style; });
+  group->add_flag("-q,--quiet", options.quiet, "no progress, report or notes; errors always");
+  group->add_flag("-v,--verbose", options.verbose, "report every rank, however many");
+}
+
+/// The names of all options of a command, as a person types them.
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const CLI::App* group : app.get_subcommands([](const CLI::App* sub) { return sub->get_name().empty(); })) {
+    const auto inner = option_names(*group);
+    names.insert(names.end(), inner.begin(), inner.end());
+  }
+  return names;
+}
+
+[[noreturn]] void refuse_extras(const CLI::App& app, const std::vector<std::string>& extras) {
+  const std::string& word = extras.front();
+  const bool is_option = word.size() > 1 && word.front() == '-';
+  const std::string hint = is_option ? io::did_you_mean(word, option_names(app)) : "";
+  throw UsageError((is_option ? "unknown option \"" : "unexpected argument \"") + word + "\"" + hint +
+                   " (see tessera " + app.get_name() + " --help)");
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv) {
+  RenderOptions render;
+  CompareOptions compare;
+  InfoOptions info;
+
+  CLI::App app{"Tessera renders scenes of spheres on every core that mpirun gives it.", "tessera"};
+  app.set_version_flag("--version", std::string("tessera ") + kVersion);
+  app.require_subcommand(0, 1);
+  app.get_formatter()->column_width(30);
+
+  CLI::App& render_app = *app.add_subcommand("render", "render a scene to a picture");
+  render_app.add_option("INPUT", render.input, "scene: .toml, Tachyon .dat, sphere table .txt .csv .bin")->required();
+  render_app.add_option("-o,--output", render.output, "picture: .png .ppm .pfm [INPUT's stem + .png]")
+      ->type_name("FILE");
+  add_picture_options(render_app, render);
+  add_schedule_options(render_app, render);
+  add_report_options(render_app, render);
+
+  CLI::App& compare_app = *app.add_subcommand("compare", "measure how far two pictures are apart");
+  compare_app.add_option("A", compare.a, "picture")->required();
+  compare_app.add_option("B", compare.b, "picture to compare with")->required();
+  compare_app.add_option("--tolerance", compare.tolerance, "largest difference of a channel that is fine [0]")
+      ->check(CLI::NonNegativeNumber);
+  compare_app.add_flag("--json", compare.json, "print JSON");
+
+  CLI::App& info_app = *app.add_subcommand("info", "say what a scene holds and what it takes");
+  info_app.add_option("INPUT", info.input, "scene")->required();
+
+  for (CLI::App* command : {&app, &render_app, &compare_app, &info_app}) command->allow_extras();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    for (CLI::App* command : app.get_subcommands()) return TextRequest{command->help("tessera")};
+    return TextRequest{app.help()};
+  } catch (const CLI::CallForVersion&) {
+    return TextRequest{std::string("tessera ") + kVersion + "\n"};
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+
+  for (const CLI::App* command : {&render_app, &compare_app, &info_app}) {
+    if (command->parsed() && !command->remaining().empty()) refuse_extras(*command, command->remaining());
+  }
+  if (!app.remaining().empty()) {
+    const std::string word = app.remaining().front();
+    throw UsageError("unknown command \"" + word + "\"" + io::did_you_mean(word, {"render", "compare", "info"}) +
+                     " (see tessera --help)");
+  }
+  if (compare_app.parsed()) return compare;
+  if (info_app.parsed()) return info;
+  if (!render_app.parsed())
+    throw UsageError("a command is missing: tessera render SCENE -o out.png, or see tessera --help");
+  if (render.output.empty()) render.output = render.input.stem().concat(".png");
+  return render;
+}
+
+}  // namespace tessera::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "render/image.h"
+#include "render/scene.h"
+#include "render/scene_data.h"
+#include "scheduler/plan.h"
+
+// What the command line says, as data.
+namespace tessera::app {
+
+struct Size {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+};
+
+enum class ProgressStyle : std::uint8_t { automatic, bar, plain, none };
+
+/// Whatever a scene may say too is optional here: given, it wins.
+struct RenderOptions {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::uint32_t bits = 8;
+  std::optional<Size> resolution;
+  std::optional<std::uint32_t> samples;
+  std::optional<std::uint32_t> max_bounces;
+  std::optional<render::Rect> crop;
+  std::optional<render::Transfer> transfer;
+  std::optional<render::Shade> shade;
+
+  Size tile{16, 16};
+  scheduler::Policy policy = scheduler::Policy::dynamic;
+  scheduler::MasterRole master = scheduler::MasterRole::automatic;
+  std::optional<unsigned> prefetch;
+  render::Kernel kernel = render::Kernel::tree;
+
+  std::optional<std::filesystem::path> stats;       ///< "-" is stdout
+  std::optional<std::filesystem::path> tile_stats;  ///< "-" is stdout
+  ProgressStyle progress = ProgressStyle::automatic;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+struct CompareOptions {
+  std::filesystem::path a;
+  std::filesystem::path b;
+  double tolerance = 0;  ///< largest max_abs that still counts as equal
+  bool json = false;
+};
+
+struct InfoOptions {
+  std::filesystem::path input;
+};
+
+/// Text asked for instead of a command: --help or --version.
+struct TextRequest {
+  std::string text;
+};
+
+using Command = std::variant<RenderOptions, CompareOptions, InfoOptions, TextRequest>;
+
+/// throws:  UsageError
+Command parse_command_line(int argc, const char* const* argv);
+
+}  // namespace tessera::app

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/render_job.h"
+
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+
+#include "io/error.h"
+#include "io/scene_codec.h"
+#include "render/tile.h"
+
+namespace tessera::app {
+namespace {
+
+/// The part of a job besides its scene, as it travels.
+struct JobHeader {
+  render::Rect area;
+  std::uint32_t tile_width;
+  std::uint32_t tile_height;
+  std::uint32_t prefetch;  ///< 0: none given
+  render::PixelFormat format;
+  render::Kernel kernel;
+  scheduler::Policy policy;
+  scheduler::MasterRole master;
+};
+static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 32);
+
+/// In front of a tile's pixels; its primary rays are known to everybody.
+struct TileHeader {
+  std::uint64_t shadow_rays;
+  std::uint64_t mirror_rays;
+};
+static_assert(std::is_trivially_copyable_v<TileHeader> && sizeof(TileHeader) == 16);
+
+}  // namespace
+
+scheduler::Bytes encode_job(const RenderJob& job) {
+  const JobHeader header{job.area,   job.tile_width, job.tile_height, job.prefetch.value_or(0),
+                         job.format, job.kernel,     job.policy,      job.master};
+  const auto scene = io::encode_scene(job.scene);
+  scheduler::Bytes bytes(sizeof header + scene.size());
+  std::memcpy(bytes.data(), &header, sizeof header);
+  std::memcpy(bytes.data() + sizeof header, scene.data(), scene.size());
+  return bytes;
+}
+
+RenderJob decode_job(std::span<const std::byte> bytes) {
+  JobHeader header;
+  if (bytes.size() < sizeof header) throw io::Error(io::ErrorKind::bad_scene, "the job from rank 0 is cut off");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  RenderJob job;
+  job.scene = io::decode_scene(bytes.subspan(sizeof header));
+  job.area = header.area;
+  job.format = header.format;
+  job.kernel = header.kernel;
+  job.tile_width = header.tile_width;
+  job.tile_height = header.tile_height;
+  job.policy = header.policy;
+  job.master = header.master;
+  if (header.prefetch > 0) job.prefetch = header.prefetch;
+  return job;
+}
+
+std::vector<render::Rect> tiles_of(const RenderJob& job, std::uint32_t ranks) {
+  switch (job.policy) {
+    case scheduler::Policy::static_bands:
+      return render::bands(job.area, ranks);
+    case scheduler::Policy::cyclic_rows:
+      return render::tile_grid(job.area, job.area.width, 1);
+    default:
+      return render::tile_grid(job.area, job.tile_width, job.tile_height);
+  }
+}
+
+scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tiles) {
+  return {job.policy, static_cast<std::uint32_t>(tiles.size()), {}, job.master, job.prefetch};
+}
+
+TileWork::TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles)
+    : renderer_(scene, job.format), format_(job.format), tiles_(tiles) {}
+
+scheduler::Bytes TileWork::operator()(scheduler::TaskId task, const std::function<void()>& between_slices) const {
+  const render::Rect& tile = tiles_[index_of(task)];
+  scheduler::Bytes delivered(sizeof(TileHeader) + tile.pixels() * bytes_per_pixel(format_));
+  const auto counts = renderer_.render(tile, std::span(delivered).subspan(sizeof(TileHeader)), between_slices);
+  const TileHeader header{counts.shadow, counts.mirror};
+  std::memcpy(delivered.data(), &header, sizeof header);
+  return delivered;
+}
+
+Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
+    : image_(job.area.width, job.area.height, job.format),
+      area_(job.area),
+      samples_(job.scene.image.samples),
+      tiles_(tiles),
+      rays_(tiles.size()) {}
+
+void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered) {
+  const render::Rect& tile = tiles_[index_of(task)];
+  const std::size_t pixel_size = bytes_per_pixel(image_.format);
+  if (delivered.size() != sizeof(TileHeader) + tile.pixels() * pixel_size) {
+    throw std::runtime_error("tile " + std::to_string(index_of(task)) + " arrived with " +
+                             std::to_string(delivered.size()) + " bytes (its size asks for another number)");
+  }
+  TileHeader header;
+  std::memcpy(&header, delivered.data(), sizeof header);
+  rays_[index_of(task)] = {tile.pixels() * samples_, header.shadow_rays, header.mirror_rays};
+
+  const std::size_t row_bytes = tile.width * pixel_size;
+  const std::byte* row = delivered.data() + sizeof header;
+  for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y, row += row_bytes) {
+    const std::size_t pixel = std::size_t{y} * image_.width + (tile.x - area_.x);
+    std::memcpy(image_.bytes.data() + pixel * pixel_size, row, row_bytes);
+  }
+}
+
+}  // namespace tessera::app

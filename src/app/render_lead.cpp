@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/render_lead.h"
+
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "app/exit_code.h"
+#include "app/report.h"
+#include "app/version.h"
+#include "io/error.h"
+#include "io/image_file.h"
+#include "io/scene_reader.h"
+#include "render/camera.h"
+#include "render/check.h"
+
+namespace tessera::app {
+namespace {
+
+constexpr std::uint64_t kMaxTiles = 100'000'000;
+
+io::ImageFormat format_of(const std::filesystem::path& output) {
+  const auto format = io::image_format_of(output);
+  if (!format) {
+    throw UsageError("-o: \"" + output.string() + "\" has no ending that we write, use " +
+                     std::string(io::kImageEndings));
+  }
+  return *format;
+}
+
+std::uint64_t tiles_along(std::uint32_t length, std::uint32_t tile) {
+  return (std::uint64_t{length} + tile - 1) / tile;
+}
+
+}  // namespace
+
+RenderLead::RenderLead(const RenderOptions& options, std::string command_line, const Team& team)
+    : options_(options), team_(team) {
+  stats_.version = kVersion;
+  stats_.command = std::move(command_line);
+  const io::ImageFormat format = format_of(options.output);
+  if (format == io::ImageFormat::pfm && options.bits == 16) {
+    throw UsageError("--bits does not go with .pfm (its channels are 32-bit floats)");
+  }
+  job_.format = io::pixel_format_for(format, options.bits == 16 ? io::BitDepth::sixteen : io::BitDepth::eight);
+
+  const scheduler::Stopwatch read;
+  read_scene();
+  stats_.time_s.read = read.seconds();
+  plan_schedule();
+  open_outputs();
+}
+
+void RenderLead::read_scene() {
+  io::ReadScene read = io::read_scene(options_.input);
+  job_.scene = std::move(read.scene);
+  notes_ = std::move(read.notes);
+
+  // The command line wins over the scene.
+  render::ImageSettings& image = job_.scene.image;
+  if (options_.resolution) {
+    image.width = options_.resolution->width;
+    image.height = options_.resolution->height;
+  }
+  image.samples = options_.samples.value_or(image.samples);
+  image.max_bounces = options_.max_bounces.value_or(image.max_bounces);
+  image.transfer = options_.transfer.value_or(image.transfer);
+  image.shade = options_.shade.value_or(image.shade);
+  if (const auto problem = problem_with(image)) throw UsageError(*problem);
+
+  job_.area = options_.crop.value_or(render::Rect{0, 0, image.width, image.height});
+  const auto fits = [](std::uint64_t begin, std::uint64_t length, std::uint32_t side) {
+    return begin + length <= side;
+  };
+  if (!fits(job_.area.x, job_.area.width, image.width) || !fits(job_.area.y, job_.area.height, image.height)) {
+    throw UsageError("--crop reaches out of the picture (it is " + std::to_string(image.width) + "x" +
+                     std::to_string(image.height) + ")");
+  }
+  if (job_.scene.camera) return;
+  job_.scene.camera = framed_camera(bounds_of(job_.scene), image.width, image.height);
+  if (const auto problem = problem_with(*job_.scene.camera)) {
+    throw io::Error(io::ErrorKind::bad_scene,
+                    options_.input.string() + ": the scene has no camera and none fits its " + "bounds: " + *problem);
+  }
+}
+
+void RenderLead::plan_schedule() {
+  job_.kernel = options_.kernel;
+  job_.tile_width = options_.tile.width;
+  job_.tile_height = options_.tile.height;
+  job_.policy = options_.policy;
+  job_.master = options_.master;
+  job_.prefetch = options_.prefetch;
+  if (tiles_along(job_.area.width, job_.tile_width) * tiles_along(job_.area.height, job_.tile_height) > kMaxTiles) {
+    throw UsageError("--tile-size cuts the picture into more than 100 million tiles, use larger ones");
+  }
+  try {
+    require_feasible(plan_of(job_, tiles_of(job_, team_.ranks)), team_.ranks);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void RenderLead::open_outputs() {
+  picture_.emplace(options_.output);
+  if (options_.stats) stats_file_.emplace(*options_.stats);
+  if (options_.tile_stats) tile_stats_file_.emplace(*options_.tile_stats);
+}
+
+void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run,
+                        const scheduler::Stopwatch& total) {
+  const scheduler::Stopwatch write;
+  const auto format = format_of(options_.output);
+  picture_->write(io::encode_image(format, mosaic.image(), job_.scene.image.transfer, {{"Software", "Tessera"}}));
+  picture_->commit();
+  stats_.time_s.write = write.seconds();
+  stats_.time_s.render = run.makespan_s;
+  stats_.time_s.total = total.seconds();
+
+  fill_stats(stats_, job_, team_, tiles, mosaic.rays(), run);
+  if (stats_file_) stats_file_->finish(to_json(stats_));
+  if (tile_stats_file_) tile_stats_file_->finish(tile_stats_csv(tile_rows(tiles, mosaic.rays(), run)));
+  if (options_.quiet) return;
+  for (const std::string& note : notes_) std::fprintf(stderr, "note: %s\n", note.c_str());
+  print_report(stats_, options_);
+}
+
+}  // namespace tessera::app

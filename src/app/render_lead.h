@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "app/render_job.h"
+#include "app/report.h"
+#include "app/text_output.h"
+#include "io/output_file.h"
+#include "io/stats.h"
+#include "scheduler/record.h"
+#include "scheduler/stopwatch.h"
+
+// What rank 0 does besides its share of the tiles: it reads the scene, checks that every output can be written, and
+// at the end writes the picture, the statistics and the report.
+namespace tessera::app {
+
+class RenderLead {
+ public:
+  /// Reads the scene, decides on the tiles and opens the outputs.
+  /// throws:  UsageError, io::Error
+  RenderLead(const RenderOptions& options, std::string command_line, const Team& team);
+
+  const RenderJob& job() const noexcept { return job_; }
+
+  /// Phases that are timed elsewhere go in here.
+  io::Stats::Times& times() noexcept { return stats_.time_s; }
+
+  /// Writes every output and prints the report; `total` started with the render command.
+  /// throws:  io::Error
+  void finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run,
+              const scheduler::Stopwatch& total);
+
+ private:
+  void read_scene();
+  void plan_schedule();
+  void open_outputs();
+
+  const RenderOptions& options_;
+  Team team_;
+  RenderJob job_;
+  io::Stats stats_;
+  std::vector<std::string> notes_;
+  std::optional<io::OutputFile> picture_;
+  std::optional<TextOutput> stats_file_;
+  std::optional<TextOutput> tile_stats_file_;
+};
+
+}  // namespace tessera::app

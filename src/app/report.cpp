@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/report.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <thread>
+
+#include "scheduler/metrics.h"
+#include "scheduler/policy.h"
+
+namespace tessera::app {
+namespace {
+
+constexpr std::size_t kRanksShown = 16;
+
+/// "1.234 s" or "5.67 ms".
+std::string duration(double seconds) {
+  char text[32];
+  if (seconds >= 0.1 || seconds == 0) {
+    std::snprintf(text, sizeof text, "%.3f s", seconds);
+  } else {
+    std::snprintf(text, sizeof text, "%.3g ms", 1e3 * seconds);
+  }
+  return text;
+}
+
+void print_ranks(const io::Stats& stats, bool all) {
+  const std::size_t shown = all ? stats.ranks.size() : std::min(stats.ranks.size(), kRanksShown);
+  std::fprintf(stderr, "  rank  host              tiles         rays        busy        wait\n");
+  for (std::size_t i = 0; i != shown; ++i) {
+    const auto& rank = stats.ranks[i];
+    std::fprintf(stderr, "  %4u  %-14.14s %8" PRIu64 " %12" PRIu64 "  %10s  %10s\n", rank.rank, rank.host.c_str(),
+                 rank.tiles, rank.rays, duration(rank.busy_s).c_str(), duration(rank.wait_s).c_str());
+  }
+  if (shown < stats.ranks.size()) {
+    std::fprintf(stderr, "  ... and %zu more ranks, shown with -v\n", stats.ranks.size() - shown);
+  }
+}
+
+/// A person who renders on one core of several may not know that there is more to have.
+void print_unused_cores(const io::Stats& stats, const RenderOptions& options) {
+  const unsigned cores = std::thread::hardware_concurrency();
+  if (!stats.mpi.library.empty() || cores < 2) return;
+  std::fprintf(stderr, "used 1 of %u cores; for all of them: mpirun -n %u tessera render %s\n", cores, cores,
+               options.input.c_str());
+}
+
+}  // namespace
+
+void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::span<const render::Rect> tiles,
+                std::span<const render::RayCounts> rays, const scheduler::RunRecord& run) {
+  const render::SceneData& scene = job.scene;
+  stats.scene = {scene.spheres.size(), scene.planes.size(), scene.lights.size(), scene.materials.size()};
+  stats.image = {job.area.width, job.area.height, scene.image.samples, scene.image.max_bounces};
+  stats.mpi = {team.ranks, team.nodes, team.library};
+  stats.schedule = {
+      std::string(name_of(job.policy)), tiles[0].width, tiles[0].height, tiles.size(), job.prefetch.value_or(0),
+      std::string(name_of(job.master))};
+
+  for (const scheduler::RankRecord& rank : run.ranks) {
+    stats.ranks.push_back({rank.rank, rank.host, rank.tasks, 0, 0, rank.busy_s, rank.wait_s});
+  }
+  for (std::size_t i = 0; i != tiles.size(); ++i) {
+    auto& rank = stats.ranks[run.tasks[i].rank];
+    rank.pixels += tiles[i].pixels();
+    rank.rays += rays[i].total();
+    stats.rays.primary += rays[i].primary;
+    stats.rays.shadow += rays[i].shadow;
+    stats.rays.mirror += rays[i].mirror;
+  }
+  const scheduler::Balance balance = balance_of(run);
+  stats.balance = {balance.imbalance, balance.load_balance,   balance.efficiency,
+                   balance.tail_s,    balance.graham_bound_s, balance.makespan_s};
+  stats.messages = {run.messages.count, run.messages.bytes};
+}
+
+std::vector<io::TileRow> tile_rows(std::span<const render::Rect> tiles, std::span<const render::RayCounts> rays,
+                                   const scheduler::RunRecord& run) {
+  std::vector<io::TileRow> rows;
+  rows.reserve(tiles.size());
+  for (std::size_t i = 0; i != tiles.size(); ++i) {
+    const scheduler::TaskRecord& task = run.tasks[i];
+    rows.push_back({index_of(task.task), tiles[i].x, tiles[i].y, tiles[i].width, tiles[i].height, task.rank,
+                    task.start_s, task.end_s, rays[i].total(), task.bytes});
+  }
+  return rows;
+}
+
+void print_report(const io::Stats& stats, const RenderOptions& options) {
+  std::fprintf(stderr, "%s: %ux%u, %u sample%s a pixel, %" PRIu64 " rays\n", options.output.c_str(), stats.image.width,
+               stats.image.height, stats.image.samples, stats.image.samples == 1 ? "" : "s",
+               stats.rays.primary + stats.rays.shadow + stats.rays.mirror);
+  std::fprintf(stderr, "%s, %" PRIu64 " tile%s of %ux%u, %u rank%s on %u node%s\n", stats.schedule.policy.c_str(),
+               stats.schedule.tiles, stats.schedule.tiles == 1 ? "" : "s", stats.schedule.tile_width,
+               stats.schedule.tile_height, stats.mpi.size, stats.mpi.size == 1 ? "" : "s", stats.mpi.nodes,
+               stats.mpi.nodes == 1 ? "" : "s");
+  print_ranks(stats, options.verbose);
+  std::fprintf(stderr,
+               "load balance: efficiency %.1f %%, imbalance %.1f %%, tail %s, makespan %s (Graham's bound %s)\n",
+               100 * stats.balance.efficiency, 100 * stats.balance.imbalance, duration(stats.balance.tail_s).c_str(),
+               duration(stats.balance.makespan_s).c_str(), duration(stats.balance.graham_bound_s).c_str());
+  const auto& t = stats.time_s;
+  std::fprintf(stderr, "time: read %s, broadcast %s, build %s, render %s, write %s, total %s\n",
+               duration(t.read).c_str(), duration(t.broadcast).c_str(), duration(t.build).c_str(),
+               duration(t.render).c_str(), duration(t.write).c_str(), duration(t.total).c_str());
+  print_unused_cores(stats, options);
+}
+
+}  // namespace tessera::app

@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the program as its users do, with and without mpirun: pictures, exit codes, messages, and no hang."""
+
+import argparse
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+TESSERA = ""
+SCENES = pathlib.Path()
+TIME_LIMIT_S = 60
+ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+USAGE, BAD_SCENE, INPUT_MISSING, CANNOT_CREATE = 64, 65, 66, 73
+
+SMALL_SCENE = """
+[image]
+width = 40
+height = 30
+[camera]
+eye = [0, -4, 2]
+[[light]]
+position = [3, -3, 5]
+[material.mirror]
+reflection = 0.5
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "mirror"
+[[plane]]
+point = [0, 0, -1]
+normal = [0, 0, 1]
+"""
+
+
+class CommandLineTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.scene = self.write("small.toml", SMALL_SCENE)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def run_tessera(self, *words, ranks=0):
+        """Runs the program, under mpirun where ranks > 0. A hang fails the test by its time limit."""
+        launcher = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks else []
+        return subprocess.run([*launcher, TESSERA, *map(str, words)], cwd=self.folder, env=ENVIRONMENT,
+                              capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False)
+
+    def own_lines(self, run):
+        """What the program itself wrote to stderr, without mpirun's words."""
+        return [line for line in run.stderr.splitlines() if line.startswith("tessera:")]
+
+    def assert_refused(self, code, *words, says, ranks=(0, 3)):
+        """One line from rank 0, this exit code, nothing on stdout, no file left."""
+        before = set(self.folder.iterdir())
+        for count in ranks:
+            with self.subTest(ranks=count, words=words):
+                run = self.run_tessera(*words, ranks=count)
+                self.assertEqual(run.returncode, code, run.stderr)
+                self.assertEqual(len(self.own_lines(run)), 1, run.stderr)
+                for part in [says] if isinstance(says, str) else says:
+                    self.assertIn(part, self.own_lines(run)[0])
+                self.assertEqual(run.stdout, "")
+                self.assertEqual(set(self.folder.iterdir()), before)
+
+    def bad_scene(self, text, says, name="bad.toml"):
+        self.assert_refused(BAD_SCENE, "render", self.write(name, text), "-o", "out.png", says=says, ranks=(0,))
+
+    # pictures
+
+    def test_every_rank_count_and_schedule_writes_the_same_file(self):
+        self.assertEqual(self.run_tessera("render", self.scene, "-o", "one.png", "-q").returncode, 0)
+        reference = (self.folder / "one.png").read_bytes()
+        for ranks, schedule, tile in [(1, "dynamic", "8"), (2, "dynamic", "7x5"), (3, "static-bands", "16"),
+                                      (4, "cyclic-rows", "16"), (2, "self", "1"), (4, "guided", "1000")]:
+            with self.subTest(ranks=ranks, schedule=schedule, tile=tile):
+                run = self.run_tessera("render", self.scene, "-o", "many.png", "--schedule", schedule,
+                                       "--tile-size", tile, ranks=ranks)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual((self.folder / "many.png").read_bytes(), reference)
+                self.assertEqual(run.stdout, "")
+
+    def test_every_format_and_depth_holds_the_same_picture(self):
+        for name, extra in [("a.png", ["--bits", "16"]), ("b.ppm", ["--bits", "16"])]:
+            self.assertEqual(self.run_tessera("render", self.scene, "-o", name, *extra).returncode, 0)
+        self.assertEqual(self.run_tessera("compare", "a.png", "b.ppm").returncode, 0)
+        for name in ["linear.png", "linear.pfm"]:
+            run = self.run_tessera("render", self.scene, "-o", name, "--transfer", "none")
+            self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(self.run_tessera("compare", "linear.png", "linear.pfm", "--tolerance", "0.00197").returncode, 0)
+        self.assertEqual(self.run_tessera("compare", "linear.png", "linear.pfm", "--tolerance", "0.0001").returncode, 1)
+
+    def test_a_crop_and_the_default_output_name(self):
+        self.assertEqual(self.run_tessera("render", self.scene, "--crop", "3,4,20,10", "-q").returncode, 0)
+        header = (self.folder / "small.png").read_bytes()[16:24]
+        self.assertEqual(header, (20).to_bytes(4, "big") + (10).to_bytes(4, "big"))
+
+    def test_every_scene_of_the_collection_renders(self):
+        for scene in sorted(SCENES.glob("*.toml")):
+            with self.subTest(scene=scene.name):
+                run = self.run_tessera("render", scene, "-r", "32x24", "-o", "scene.png", ranks=2)
+                self.assertEqual(run.returncode, 0, run.stderr)
+
+    # reports
+
+    def test_stats_have_the_keys_that_scripts_rely_on(self):
+        run = self.run_tessera("render", self.scene, "-q", "--stats", "-", "--tile-stats", "tiles.csv", ranks=2)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stderr, "")
+        stats = json.loads(run.stdout)
+        keys = {
+            "scene": "spheres planes lights materials", "image": "width height samples max_bounces",
+            "mpi": "size nodes library", "schedule": "policy tile_width tile_height tiles prefetch master",
+            "time_s": "read broadcast build render write total", "rays": "primary shadow mirror",
+            "balance": "imbalance load_balance efficiency tail_s graham_bound_s makespan_s",
+            "messages": "count bytes",
+        }
+        for key, inner in keys.items():
+            self.assertEqual(set(stats[key]), set(inner.split()), key)
+        self.assertLessEqual({"schema", "version", "command", "skipped", "ranks"}, set(stats))
+        self.assertEqual(len(stats["ranks"]), 2)
+        self.assertEqual(set(stats["ranks"][0]), set("rank host tiles pixels rays busy_s wait_s".split()))
+        self.assertEqual(sum(rank["pixels"] for rank in stats["ranks"]), 40 * 30)
+        self.assertEqual(sum(rank["rays"] for rank in stats["ranks"]), sum(stats["rays"].values()))
+        self.assertEqual(stats["mpi"]["size"], 2)
+        self.assertEqual(stats["rays"]["primary"], 1200)
+
+        with open(self.folder / "tiles.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0]), "tile,x,y,width,height,rank,start_s,end_s,rays,bytes".split(","))
+        self.assertEqual(len(rows), stats["schedule"]["tiles"])
+        self.assertEqual(sum(int(row["width"]) * int(row["height"]) for row in rows), 1200)
+        self.assertTrue(all(0 <= float(row["start_s"]) <= float(row["end_s"]) for row in rows))
+
+    def test_the_report_goes_to_stderr_and_quiet_silences_it(self):
+        loud = self.run_tessera("render", self.scene, ranks=2)
+        self.assertIn("load balance: efficiency", loud.stderr)
+        self.assertEqual(loud.stdout, "")
+        alone = self.run_tessera("render", self.scene)
+        self.assertIn("load balance: efficiency", alone.stderr)
+        self.assertEqual(self.run_tessera("render", self.scene, "-q", ranks=2).stderr, "")
+
+    def test_plain_progress_is_whole_lines(self):
+        run = self.run_tessera("render", self.scene, "-r", "3000x3000", "--progress", "plain", ranks=1)
+        lines = [line for line in run.stderr.splitlines() if line.startswith("rendered")]
+        for line in lines:
+            self.assertRegex(line, r"^rendered +\d+ %, \d+ s, about \d+ s left$")
+
+    def test_compare_tells_pictures_apart(self):
+        self.run_tessera("render", self.scene, "-o", "a.png", "-q")
+        self.run_tessera("render", self.scene, "-o", "b.png", "-q", "-b", "0")
+        same = self.run_tessera("compare", "a.png", "a.png", "--json")
+        self.assertEqual((same.returncode, json.loads(same.stdout)["max_abs"]), (0, 0))
+        other = self.run_tessera("compare", "a.png", "b.png", "--json")
+        self.assertEqual(other.returncode, 1)
+        self.assertGreater(json.loads(other.stdout)["rmse"], 0)
+
+    def test_info_counts_what_is_there(self):
+        run = self.run_tessera("info", self.scene)
+        self.assertEqual(run.returncode, 0)
+        self.assertRegex(run.stdout, r"spheres +1\nplanes +1\nlights +1\n")
+
+    def test_help_and_version_go_to_stdout_once(self):
+        for words in [["--help"], ["render", "--help"], ["--version"]]:
+            for ranks in (0, 2):
+                run = self.run_tessera(*words, ranks=ranks)
+                self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(self.run_tessera("--version", ranks=3).stdout.count("tessera"), 1)
+
+    # bad input: one line, the right exit code on every rank, nothing left behind
+
+    def test_wrong_command_lines(self):
+        scene = self.scene
+        self.assert_refused(USAGE, "render", says="INPUT")
+        self.assert_refused(USAGE, "render", scene, "--tile-size", "0", says="--tile-size")
+        self.assert_refused(USAGE, "render", scene, "--schedule", "dynamc", says='did you mean "dynamic"')
+        self.assert_refused(USAGE, "render", scene, "-o", "out.jpg", says=".png, .ppm or .pfm")
+        self.assert_refused(USAGE, "render", scene, "--crop", "30,0,20,20", says="--crop")
+        self.assert_refused(USAGE, "render", scene, "-s", "5", says="4 or 9")
+        self.assert_refused(USAGE, "render", scene, "-o", "a.pfm", "--bits", "16", says="--bits")
+        self.assert_refused(USAGE, "render", scene, "--schedule", "static-bands", "--master", "dedicated",
+                            says="dedicated", ranks=(3,))
+        self.assert_refused(USAGE, "render", scene, "--master", "dedicated", says="dedicated", ranks=(0, 1))
+        self.assert_refused(USAGE, "frobnicate", says="frobnicate")
+
+    def test_files_that_cannot_be_read_or_written(self):
+        self.assert_refused(INPUT_MISSING, "render", "nowhere.toml", says="nowhere.toml")
+        self.assert_refused(CANNOT_CREATE, "render", self.scene, "-o", "no/such/folder/out.png", says="no/such/folder")
+        self.assert_refused(CANNOT_CREATE, "render", self.scene, "--stats", "no/such/stats.json", says="no/such")
+        self.assert_refused(BAD_SCENE, "render", self.write("scene.xml", "<x/>"), says=".toml")
+        self.assert_refused(INPUT_MISSING, "compare", "a.png", "b.png", says="a.png", ranks=(0,))
+
+    def test_scenes_that_cannot_be_rendered(self):
+        self.assert_refused(BAD_SCENE, "render", self.write("bad.toml", "[[sphere]]\ncenter = [0, 0, 0]\nradius = -1\n"),
+                            says=["bad.toml:3:10:", "radius", "-1"])
+        self.bad_scene("[image\nwidth = 3\n", "bad.toml:1:")
+        self.bad_scene("[[sphere]]\ncenter = [0, 0, 0]\nradious = 1\n", 'did you mean "radius"')
+        self.bad_scene("[[sphere]]\ncenter = [0, 0, 0]\nradius = \"big\"\n", "bad.toml:3:10:")
+        self.bad_scene("[[sphere]]\ncenter = [0, 0, nan]\nradius = 1\n", "bad.toml:2:")
+        self.bad_scene("[[sphere]]\ncenter = [0, 0, 0]\nradius = inf\n", "bad.toml:3:10:")
+        self.bad_scene("[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n", "same point")
+        self.bad_scene("[camera]\neye = [0, 0, 3]\n", "parallel")
+        self.bad_scene("[image]\nwidth = 0\n", "bad.toml:2:9:")
+        self.bad_scene("[image]\nsamples = 5\n", "4 or 9")
+
+    def test_tachyon_files_that_are_cut_off_or_junk(self):
+        good = ("BEGIN_SCENE\nRESOLUTION 8 8\nCAMERA ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH 2\n"
+                "CENTER 0 0 -5 VIEWDIR 0 0 1 UPDIR 0 1 0 END_CAMERA\n"
+                "SPHERE CENTER 0 0 0 RAD 1 TEXTURE AMBIENT 1 DIFFUSE 0 SPECULAR 0 OPACITY 1 COLOR 1 1 1 TEXFUNC 0\n"
+                "END_SCENE\n")
+        run = self.run_tessera("render", self.write("good.dat", good), "-o", "good.png", "-q")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.bad_scene(good[:-len("END_SCENE\n")], "cut.dat:", name="cut.dat")
+        self.bad_scene(good[:200], "cut.dat:", name="cut.dat")
+        self.bad_scene(good.replace("RAD 1", "RAD one"), "junk.dat:5:", name="junk.dat")
+        self.bad_scene("\x00\x01\x02 rubbish", "junk.dat:1:", name="junk.dat")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--tessera", required=True, help="the program")
+    parser.add_argument("--scenes", required=True, help="folder of the scene collection")
+    arguments, rest = parser.parse_known_args()
+    TESSERA, SCENES = arguments.tessera, pathlib.Path(arguments.scenes)
+    unittest.main(argv=[__file__, *rest])
