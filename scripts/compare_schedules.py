@@ -53,8 +53,9 @@ def fail(message):
 
 def variants_of(schedules, tile_sizes):
     """Each schedule with each tile size, or once where the size does not matter."""
-    return [Variant(schedule, size) for schedule in schedules
-            for size in ([""] if schedule in UNTILED else tile_sizes)]
+    variants = [Variant(schedule, size) for schedule in schedules
+                for size in ([""] if schedule in UNTILED else tile_sizes)]
+    return list(dict.fromkeys(variants))
 
 
 def render(tessera, scene, variant, ranks, resolution, folder):
@@ -70,7 +71,8 @@ def render(tessera, scene, variant, ranks, resolution, folder):
     except FileNotFoundError:
         fail("mpirun is not installed (Debian package openmpi-bin)")
     if run.returncode != 0:
-        fail(f"{scene}, {variant}: exit code {run.returncode}\n{run.stderr.strip()}")
+        ours = [line for line in run.stderr.splitlines() if line.startswith("tessera:")]
+        fail(f"{scene}, {variant}: exit code {run.returncode}\n" + ("\n".join(ours) or run.stderr.strip()))
     return json.loads(stats.read_text()), picture.read_bytes()
 
 
@@ -161,6 +163,8 @@ def parse(words):
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("out/compare_schedules"), metavar="DIR",
                         help="folder for the CSV [%(default)s]")
     options = parser.parse_args(words)
+    if not all(options.tile_size.split(",")) or not all(options.schedules.split(",")):
+        parser.error("--tile-size and --schedules are lists with commas between, and no empty entry")
     if options.ranks < 1 or options.repeat < 1:
         parser.error("--ranks and --repeat must be at least 1")
     return options
@@ -168,7 +172,7 @@ def parse(words):
 
 def main(words):
     options = parse(words)
-    if not os.access(options.tessera, os.X_OK):
+    if not os.path.isfile(options.tessera):
         fail(f"{options.tessera} is not there; build it with scripts/demo.sh or name it with --tessera")
     cores = len(os.sched_getaffinity(0))
     if options.ranks > cores:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares our pictures of Tachyon scenes with Tachyon's own (Debian package tachyon).
 
-Tachyon samples half a pixel off the centres. Its picture at twice the size, row 2 y + 1 and column 2 x, holds exactly our
-sample points, so the two can be compared pixel by pixel. Prints for each scene the share
-of pixels whose largest channel difference is at most 2/255, and what our reader said it had to leave out.
+Tachyon samples half a pixel off the centres. Its picture at twice the size, row 2 y + 1 and column 2 x, holds exactly
+our sample points, so the two can be compared pixel by pixel. Prints for each scene the share of pixels whose largest
+channel difference is at most 2/255, and what our reader said it had to leave out.
 """
 
 import argparse
@@ -54,9 +54,10 @@ def tachyon_picture(scene, size, folder):
         subprocess.run(list(map(str, command)), cwd=scene.parent, capture_output=True, check=False)
     except FileNotFoundError:
         fail("tachyon is not installed (Debian package tachyon)")
-    if not output.exists():
-        fail(f"tachyon made no picture of {scene}")
-    return read_ppm(output)
+    picture = read_ppm(output) if output.exists() else None
+    if picture is None or picture[:2] != (2 * size[0], 2 * size[1]):
+        fail(f"tachyon made no picture of {scene} with {2 * size[0]}x{2 * size[1]} pixels")
+    return picture
 
 
 def largest_differences(ours, theirs):
@@ -74,6 +75,8 @@ def main():
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="Tachyon .dat files; default: seven of tachyon-doc")
     parser.add_argument("--tessera", default=next(filter(pathlib.Path.exists, BUILDS), BUILDS[0]), metavar="PATH")
     options = parser.parse_args()
+    if not os.path.isfile(options.tessera):
+        fail(f"{options.tessera} is not there; build it with scripts/demo.sh or name it with --tessera")
     scenes = [pathlib.Path(scene).resolve() for scene in options.scenes]
     if not scenes:
         folder = subprocess.run([ROOT / "scripts" / "tachyon_scenes.sh"], capture_output=True, text=True, check=True)

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "io/error.h"
 #include "io/image_file.h"
@@ -22,16 +23,18 @@ void print_text(const render::ImageDifference& d) {
       d.max_abs, d.rmse, d.psnr_db, d.rel_mse, d.off_pixels, 100 * d.off_share);
 }
 
-/// JSON has no infinity: the PSNR of equal pictures is null.
+/// JSON has neither infinity, as the PSNR of equal pictures, nor NaN: they are null.
+std::string json_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return std::isfinite(value) ? text : "null";
+}
+
 void print_json(const render::ImageDifference& d) {
-  std::printf("{\"max_abs\": %.17g, \"rmse\": %.17g, \"psnr_db\": ", d.max_abs, d.rmse);
-  if (std::isfinite(d.psnr_db)) {
-    std::printf("%.17g", d.psnr_db);
-  } else {
-    std::printf("null");
-  }
-  std::printf(", \"rel_mse\": %.17g, \"off_pixels\": %zu, \"off_share\": %.17g}\n", d.rel_mse, d.off_pixels,
-              d.off_share);
+  std::printf(
+      "{\"max_abs\": %s, \"rmse\": %s, \"psnr_db\": %s, \"rel_mse\": %s, \"off_pixels\": %zu, \"off_share\": %s}\n",
+      json_number(d.max_abs).c_str(), json_number(d.rmse).c_str(), json_number(d.psnr_db).c_str(),
+      json_number(d.rel_mse).c_str(), d.off_pixels, json_number(d.off_share).c_str());
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <new>
 
 #include "io/error.h"
+#include "scheduler/launcher.h"
+#include "scheduler/mpi/session.h"
 
 namespace tessera::app {
 namespace {
@@ -24,8 +26,11 @@ ExitCode code_of(io::ErrorKind kind) noexcept {
   return ExitCode::internal;
 }
 
+/// One line, whatever a file's name holds.
 void print(const char* what) noexcept {
-  std::fprintf(stderr, "tessera: %s\n", what);
+  std::fputs("tessera: ", stderr);
+  for (const char* c = what; *c != '\0'; ++c) std::fputc(*c == '\n' || *c == '\r' ? '?' : *c, stderr);
+  std::fputc('\n', stderr);
 }
 
 }  // namespace
@@ -47,6 +52,14 @@ ExitCode report_failure() noexcept {
     print("unknown error");
   }
   return ExitCode::internal;
+}
+
+ExitCode report_usage_error(int& argc, char**& argv) {
+  if (!scheduler::launched_by_mpi()) return report_failure();
+  scheduler::mpi::Session session(argc, argv);
+  if (session.rank() == scheduler::kMasterRank) report_failure();
+  session.barrier();
+  return ExitCode::usage;
 }
 
 }  // namespace tessera::app

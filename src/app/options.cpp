@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <vector>
 
 #include "app/exit_code.h"
@@ -30,6 +31,14 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+std::uint32_t count_of(const std::string& option, const std::string& text, std::uint32_t least) {
+  const auto value = whole_number(text);
+  if (!value || *value < least) {
+    throw UsageError(option + ": \"" + text + "\" is not a whole number >= " + std::to_string(least));
+  }
+  return *value;
+}
+
 std::uint32_t positive(const std::string& option, std::string_view text, const std::string& whole) {
   const auto value = whole_number(text);
   if (!value || *value == 0) throw UsageError(option + ": \"" + whole + "\" is not a size (whole numbers >= 1)");
@@ -44,7 +53,7 @@ Size size_of(const std::string& option, const std::string& text) {
 
 Size tile_size_of(const std::string& option, const std::string& text) {
   if (text.find('x') != std::string::npos) return size_of(option, text);
-  const std::uint32_t side = positive(option, text, text);
+  const std::uint32_t side = count_of(option, text, 1);
   return {side, side};
 }
 
@@ -85,8 +94,16 @@ void add_picture_options(CLI::App& app, RenderOptions& options) {
           "-r,--resolution", [&](const std::string& text) { options.resolution = size_of("--resolution", text); },
           "width and height in pixels")
       ->type_name("WxH");
-  group->add_option("-s,--spp", options.samples, "samples per pixel, a square number")->type_name("N");
-  group->add_option("-b,--max-bounces", options.max_bounces, "mirror bounces")->type_name("N");
+  group
+      ->add_option_function<std::string>(
+          "-s,--spp", [&](const std::string& text) { options.samples = count_of("--spp", text, 1); },
+          "samples per pixel, a square number")
+      ->type_name("N");
+  group
+      ->add_option_function<std::string>(
+          "-b,--max-bounces",
+          [&](const std::string& text) { options.max_bounces = count_of("--max-bounces", text, 0); }, "mirror bounces")
+      ->type_name("N");
   group
       ->add_option_function<std::string>(
           "--crop", [&](const std::string& text) { options.crop = crop_of("--crop", text); },
@@ -125,8 +142,7 @@ void add_schedule_options(CLI::App& app, RenderOptions& options) {
       ->add_option_function<std::string>(
           "--prefetch",
           [&](const std::string& text) {
-            options.prefetch =
-                text == "auto" ? std::nullopt : std::optional<unsigned>(positive("--prefetch", text, text));
+            options.prefetch = text == "auto" ? std::nullopt : std::optional<unsigned>(count_of("--prefetch", text, 1));
           },
           "tiles that a worker holds [auto]")
       ->type_name("auto|N");
@@ -174,6 +190,10 @@ std::vector<std::string> option_names(const CLI::App& app) {
 }  // namespace
 
 Command parse_command_line(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    // Usually a variable that a script did not set.
+    if (*argv[i] == '\0') throw UsageError("argument " + std::to_string(i) + " is empty (a variable that is not set?)");
+  }
   RenderOptions render;
   CompareOptions compare;
   InfoOptions info;
@@ -194,8 +214,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   CLI::App& compare_app = *app.add_subcommand("compare", "measure how far two pictures are apart");
   compare_app.add_option("A", compare.a, "picture")->required();
   compare_app.add_option("B", compare.b, "picture to compare with")->required();
-  compare_app.add_option("--tolerance", compare.tolerance, "largest difference of a channel that is fine [0]")
-      ->check(CLI::NonNegativeNumber);
+  compare_app.add_option("--tolerance", compare.tolerance, "largest difference of a channel that is fine [0]");
   compare_app.add_flag("--json", compare.json, "print JSON");
 
   CLI::App& info_app = *app.add_subcommand("info", "say what a scene holds and what it takes");
@@ -221,6 +240,8 @@ Command parse_command_line(int argc, const char* const* argv) {
     throw UsageError("unknown command \"" + word + "\"" + io::did_you_mean(word, {"render", "compare", "info"}) +
                      " (see tessera --help)");
   }
+  if (compare_app.parsed() && (std::isnan(compare.tolerance) || compare.tolerance < 0))
+    throw UsageError("--tolerance must be a number >= 0");
   if (compare_app.parsed()) return compare;
   if (info_app.parsed()) return info;
   if (!render_app.parsed())

@@ -2,7 +2,10 @@
 #include "app/render_lead.h"
 
 #include <cstdio>
+#include <initializer_list>
+#include <map>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "app/exit_code.h"
@@ -30,6 +33,27 @@ io::ImageFormat format_of(const std::filesystem::path& output) {
 
 std::uint64_t tiles_along(std::uint32_t length, std::uint32_t tile) {
   return (std::uint64_t{length} + tile - 1) / tile;
+}
+
+struct NamedPath {
+  const char* option;
+  std::optional<std::filesystem::path> path;
+};
+
+/// One file for two things would lose one of them.
+void refuse_shared_names(std::initializer_list<NamedPath> paths) {
+  namespace fs = std::filesystem;
+  std::map<fs::path, const char*> owners;
+  for (const auto& [option, path] : paths) {
+    if (!path || *path == "-") continue;
+    std::error_code error;
+    const fs::path file = fs::weakly_canonical(fs::absolute(*path), error);
+    if (error || (fs::exists(file, error) && !fs::is_regular_file(file, error))) continue;
+    const auto [owner, is_new] = owners.emplace(file, option);
+    if (!is_new) {
+      throw UsageError(std::string(option) + ": \"" + path->string() + "\" is " + owner->second + " as well");
+    }
+  }
 }
 
 }  // namespace
@@ -80,7 +104,7 @@ void RenderLead::read_scene() {
   job_.scene.camera = framed_camera(bounds_of(job_.scene), image.width, image.height);
   if (const auto problem = problem_with(*job_.scene.camera)) {
     throw io::Error(io::ErrorKind::bad_scene,
-                    options_.input.string() + ": the scene has no camera and none fits its " + "bounds: " + *problem);
+                    options_.input.string() + ": the scene has no camera and none fits its bounds: " + *problem);
   }
 }
 
@@ -102,6 +126,10 @@ void RenderLead::plan_schedule() {
 }
 
 void RenderLead::open_outputs() {
+  refuse_shared_names({{"INPUT", options_.input},
+                       {"-o", options_.output},
+                       {"--stats", options_.stats},
+                       {"--tile-stats", options_.tile_stats}});
   picture_.emplace(options_.output);
   if (options_.stats) stats_file_.emplace(*options_.stats);
   if (options_.tile_stats) tile_stats_file_.emplace(*options_.tile_stats);
@@ -112,14 +140,17 @@ void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tile
   const scheduler::Stopwatch write;
   const auto format = format_of(options_.output);
   picture_->write(io::encode_image(format, mosaic.image(), job_.scene.image.transfer, {{"Software", "Tessera"}}));
-  picture_->commit();
   stats_.time_s.write = write.seconds();
   stats_.time_s.render = run.makespan_s;
   stats_.time_s.total = total.seconds();
 
   fill_stats(stats_, job_, team_, tiles, mosaic.rays(), run);
-  if (stats_file_) stats_file_->finish(to_json(stats_));
-  if (tile_stats_file_) tile_stats_file_->finish(tile_stats_csv(tile_rows(tiles, mosaic.rays(), run)));
+  if (stats_file_) stats_file_->write(to_json(stats_));
+  if (tile_stats_file_) tile_stats_file_->write(tile_stats_csv(tile_rows(tiles, mosaic.rays(), run)));
+  // Either all of them appear or none.
+  picture_->commit();
+  if (stats_file_) stats_file_->commit();
+  if (tile_stats_file_) tile_stats_file_->commit();
   if (options_.quiet) return;
   for (const std::string& note : notes_) std::fprintf(stderr, "note: %s\n", note.c_str());
   print_report(stats_, options_);

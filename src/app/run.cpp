@@ -8,6 +8,7 @@
 #include "app/info_command.h"
 #include "app/options.h"
 #include "app/render_command.h"
+#include "io/error.h"
 #include "scheduler/launcher.h"
 
 namespace tessera::app {
@@ -20,6 +21,13 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
+/// Whatever goes to stdout must arrive there.
+void flush_stdout() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw io::Error(io::ErrorKind::io_failure, "standard output: cannot write");
+  }
+}
+
 }  // namespace
 
 ExitCode run(int argc, char** argv) {
@@ -30,10 +38,12 @@ ExitCode run(int argc, char** argv) {
 
   // The other commands are one process's work.
   if (scheduler::launched_rank() != 0) return ExitCode::success;
-  if (const auto* compare = std::get_if<CompareOptions>(&command)) return run_compare(*compare);
-  if (const auto* info = std::get_if<InfoOptions>(&command)) return run_info(*info);
-  std::fputs(std::get<TextRequest>(command).text.c_str(), stdout);
-  return ExitCode::success;
+  ExitCode code = ExitCode::success;
+  if (const auto* compare = std::get_if<CompareOptions>(&command)) code = run_compare(*compare);
+  if (const auto* info = std::get_if<InfoOptions>(&command)) code = run_info(*info);
+  if (const auto* request = std::get_if<TextRequest>(&command)) std::fputs(request->text.c_str(), stdout);
+  flush_stdout();
+  return code;
 }
 
 }  // namespace tessera::app

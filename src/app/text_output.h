@@ -20,10 +20,15 @@ class TextOutput {
 
   /// Writes the whole text. Call once.
   /// throws:  io::Error(io_failure)
-  void finish(std::string_view text) {
+  void write(std::string_view text) {
     if (!file_) return io::write_text("-", text);
     file_->write(text);
-    file_->commit();
+  }
+
+  /// Gives the file its name.
+  /// throws:  io::Error(io_failure)
+  void commit() {
+    if (file_) file_->commit();
   }
 
  private:

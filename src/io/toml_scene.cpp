@@ -61,7 +61,7 @@ void read_image(const TomlFields& fields, render::ImageSettings& image) {
 render::Camera read_camera(const TomlFields& fields) {
   render::Camera camera;
   fields.require("eye", camera.eye);
-  fields.read("target", camera.target);
+  fields.require("target", camera.target);
   fields.read("up", camera.up);
   if (fields.has("height")) {
     if (fields.has("fov")) fields.refuse("height", "height and fov exclude each other (height is for orthographic)");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/check.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -33,6 +34,13 @@ Problem not_finite(const std::string& name, const Vec3& v) {
   return name + " must be finite (it holds nan or inf)";
 }
 
+Problem no_point(const std::string& name, const Vec3& p) {
+  if (const auto problem = not_finite(name, p)) return problem;
+  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (largest <= kLargestLength) return std::nullopt;
+  return must_be(name, "within +-" + text_of(kLargestLength), largest) + " scale the scene";
+}
+
 Problem not_in(const std::string& name, const std::string& range, double value, bool is_in_range) {
   if (!std::isfinite(value)) return must_be(name, "finite", value);
   return is_in_range ? std::nullopt : Problem(must_be(name, range, value));
@@ -44,6 +52,7 @@ bool is_above(double value, double bound) {
 }
 
 Problem not_non_negative(const std::string& name, double value) {
+  if (is_above(value, kLargestWeight)) return must_be(name, "at most " + text_of(kLargestWeight), value);
   return not_in(name, ">= 0", value, is_above(value, 0) || value == 0);
 }
 
@@ -71,24 +80,28 @@ Problem problem_with(const Material& m) {
 }
 
 Problem problem_with(const Sphere& sphere) {
-  return first_of(not_finite("center", sphere.center), not_non_negative("radius", sphere.radius));
+  const double r = sphere.radius;
+  const auto problem = first_of(no_point("center", sphere.center), not_in("radius", ">= 0", r, !is_above(-r, 0)));
+  if (problem || r == 0 || (r >= 1 / kLargestLength && r <= kLargestLength)) return problem;
+  return must_be("radius", "0 or from " + text_of(1 / kLargestLength) + " to " + text_of(kLargestLength), r) +
+         " scale the scene";
 }
 
 Problem problem_with(const Plane& plane) {
   const double size = plane.checker ? plane.checker->size : 1;
-  return first_of(not_finite("point", plane.point), no_direction("normal", plane.normal),
+  return first_of(no_point("point", plane.point), no_direction("normal", plane.normal),
                   not_in("checker_size", "> 0", size, is_above(size, 0)));
 }
 
 Problem problem_with(const Light& light) {
   return first_of(
-      light.kind == LightKind::point ? not_finite("position", light.vector) : no_direction("direction", light.vector),
+      light.kind == LightKind::point ? no_point("position", light.vector) : no_direction("direction", light.vector),
       not_non_negative("color", light.color));
 }
 
 Problem problem_with(const Camera& camera) {
   const auto problem =
-      first_of(not_finite("eye", camera.eye), not_finite("target", camera.target), no_direction("up", camera.up));
+      first_of(no_point("eye", camera.eye), no_point("target", camera.target), no_direction("up", camera.up));
   if (problem) return problem;
   if (camera.eye == camera.target) return "eye and target are the same point (no view direction)";
   if (const auto bad = no_direction("the way from eye to target", camera.target - camera.eye)) return bad;

@@ -15,6 +15,12 @@ inline constexpr std::uint32_t kMaxImageSide = 65536;
 /// Most samples per pixel, a square.
 inline constexpr std::uint32_t kMaxSamples = 65536;
 
+/// Coordinates and radii may not be larger than this, and a radius other than 0 not smaller than its reciprocal: the
+/// squares of distances must be numbers.
+inline constexpr double kLargestLength = 1e152;
+/// Largest colour, weight or shininess: their products must be numbers.
+inline constexpr double kLargestWeight = 1e30;
+
 /// The reason why a thing cannot be rendered ("radius must be >= 0 (it is -1)"), or nullopt where it can.
 std::optional<std::string> problem_with(const Material& material);
 std::optional<std::string> problem_with(const Sphere& sphere);

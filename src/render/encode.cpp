@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace tessera::render {
 namespace {
@@ -15,6 +16,11 @@ Channel quantized(double linear, Transfer transfer) noexcept {
   const double clamped = std::clamp(linear, 0.0, 1.0);
   const double encoded = transfer == Transfer::srgb ? srgb_from_linear(clamped) : clamped;
   return static_cast<Channel>(std::floor(static_cast<double>(static_cast<Channel>(-1)) * encoded + 0.5));
+}
+
+/// The nearest float; beyond them all the largest, for a file's reader may stumble over an infinity.
+float as_float(double linear) noexcept {
+  return static_cast<float>(std::min(linear, static_cast<double>(std::numeric_limits<float>::max())));
 }
 
 template <class Channel>
@@ -44,7 +50,7 @@ void encode_pixel(const Rgb& c, PixelFormat format, Transfer transfer, std::byte
     case PixelFormat::rgb16:
       return all(std::uint16_t{});
     case PixelFormat::rgb32f:
-      return store<float>({static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)}, pixel);
+      return store<float>({as_float(c.r), as_float(c.g), as_float(c.b)}, pixel);
   }
 }
 

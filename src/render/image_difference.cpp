@@ -19,6 +19,14 @@ double load(const Image& image, std::size_t channel) noexcept {
   return value;
 }
 
+double distance_between(double a, double b) noexcept {
+  const bool comparable = std::isfinite(a) && std::isfinite(b);
+  if (comparable) return std::abs(a - b);
+  const bool same =
+      (std::isnan(a) && std::isnan(b)) || (std::isinf(a) && std::isinf(b) && std::signbit(a) == std::signbit(b));
+  return same ? 0 : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 double channel_value(const Image& image, std::size_t channel) noexcept {
@@ -42,8 +50,8 @@ ImageDifference difference_between(const Image& a, const Image& b) {
     bool off = false;
     for (std::size_t channel = 3 * pixel; channel != 3 * pixel + 3; ++channel) {
       const double reference = channel_value(b, channel);
-      const double signed_error = channel_value(a, channel) - reference;
-      const double error = std::isnan(signed_error) ? std::numeric_limits<double>::infinity() : std::abs(signed_error);
+      const double error = distance_between(channel_value(a, channel), reference);
+      if (error == 0) continue;
       result.max_abs = std::max(result.max_abs, error);
       square_sum += error * error;
       relative_sum += error * error / (reference * reference + kRelativeFloor);

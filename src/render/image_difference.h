@@ -22,7 +22,7 @@ struct ImageDifference {
 /// shapes:  channel = 3 (y width + x) + c
 double channel_value(const Image& image, std::size_t channel) noexcept;
 
-/// A channel that is NaN in one of them is infinitely far off.
+/// A channel that is NaN or infinite in one of them alone is infinitely far off.
 /// requires: equal sizes; formats may differ
 ImageDifference difference_between(const Image& a, const Image& b);
 

@@ -19,8 +19,8 @@ class TileRenderer {
   /// requires: scene has a camera (see framed_camera) and outlives the renderer
   TileRenderer(const Scene& scene, PixelFormat format);
 
-  /// Renders the pixels of `tile`, in coordinates of the whole picture, and calls `between_slices` every few hundred rays.
-  /// shapes:  pixels has room for tile.pixels() of the format, top row first
+  /// Renders the pixels of `tile`, in coordinates of the whole picture, and calls `between_slices` every few hundred
+  /// rays. shapes:  pixels has room for tile.pixels() of the format, top row first
   RayCounts render(const Rect& tile, std::span<std::byte> pixels, const std::function<void()>& between_slices) const;
 
  private:

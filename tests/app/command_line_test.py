@@ -18,7 +18,7 @@ TIME_LIMIT_S = 60
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                             "HWLOC_HIDE_ERRORS": "2"}
 
-USAGE, BAD_SCENE, INPUT_MISSING, CANNOT_CREATE = 64, 65, 66, 73
+USAGE, BAD_SCENE, INPUT_MISSING, CANNOT_CREATE, IO_FAILURE = 64, 65, 66, 73, 74
 
 SMALL_SCENE = """
 [image]
@@ -26,6 +26,7 @@ width = 40
 height = 30
 [camera]
 eye = [0, -4, 2]
+target = [0, 0, 0]
 [[light]]
 position = [3, -3, 5]
 [material.mirror]
@@ -195,6 +196,23 @@ class CommandLineTest(unittest.TestCase):
         self.assert_refused(USAGE, "render", scene, "--master", "dedicated", says="dedicated", ranks=(0, 1))
         self.assert_refused(USAGE, "frobnicate", says="frobnicate")
 
+    def test_an_empty_argument_is_refused_and_does_not_hang(self):
+        self.assert_refused(USAGE, "render", self.scene, "", "-q", says="argument 3 is empty")
+        self.assert_refused(USAGE, "render", self.scene, "-o", "", says="empty", ranks=(0,))
+
+    def test_one_file_for_two_things_is_refused(self):
+        self.assert_refused(USAGE, "render", self.scene, "-o", "x.png", "--stats", "./x.png", says="-o as well")
+        self.assert_refused(USAGE, "render", self.scene, "--stats", self.scene, says="INPUT as well", ranks=(0,))
+
+    def test_outputs_appear_together_or_not_at_all(self):
+        self.assert_refused(IO_FAILURE, "render", self.scene, "-q", "--stats", "/dev/full", says="/dev/full")
+
+    def test_a_full_standard_output_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            run = subprocess.run([TESSERA, "info", self.scene], stdout=full, stderr=subprocess.PIPE, text=True,
+                                 timeout=TIME_LIMIT_S, check=False)
+        self.assertEqual((run.returncode, len(self.own_lines(run))), (IO_FAILURE, 1))
+
     def test_files_that_cannot_be_read_or_written(self):
         self.assert_refused(INPUT_MISSING, "render", "nowhere.toml", says="nowhere.toml")
         self.assert_refused(CANNOT_CREATE, "render", self.scene, "-o", "no/such/folder/out.png", says="no/such/folder")
@@ -211,7 +229,10 @@ class CommandLineTest(unittest.TestCase):
         self.bad_scene("[[sphere]]\ncenter = [0, 0, nan]\nradius = 1\n", "bad.toml:2:")
         self.bad_scene("[[sphere]]\ncenter = [0, 0, 0]\nradius = inf\n", "bad.toml:3:10:")
         self.bad_scene("[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n", "same point")
-        self.bad_scene("[camera]\neye = [0, 0, 3]\n", "parallel")
+        self.bad_scene("[camera]\neye = [0, 0, 3]\ntarget = [0, 0, 0]\n", "parallel")
+        self.bad_scene("[camera]\neye = [0, 0, 3]\n", ["bad.toml:1:", "target"])
+        self.bad_scene("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1e200\n", ["bad.toml:3:10:", "scale the scene"])
+        self.bad_scene("[material.hot]\ncolor = [1e300, 1, 1]\n", "bad.toml:2:9:")
         self.bad_scene("[image]\nwidth = 0\n", "bad.toml:2:9:")
         self.bad_scene("[image]\nsamples = 5\n", "4 or 9")
 

@@ -90,12 +90,26 @@ BOOST_AUTO_TEST_CASE(one_number_makes_square_tiles) {
 }
 
 BOOST_AUTO_TEST_CASE(a_size_must_be_whole_positive_numbers) {
-  for (const char* size : {"0", "-4", "x", "16x", "x16", "16x0", "1e2", "16x16x16", "99999999999", "", " 16"}) {
+  for (const char* size : {"0", "-4", "x", "16x", "x16", "16x0", "1e2", "16x16x16", "99999999999", " 16"}) {
     BOOST_TEST(contains(complaint({"render", "s.toml", "--tile-size", size}), "--tile-size"), size);
   }
   for (const char* size : {"0x1", "640", "640*480", "-1x5"}) {
     BOOST_TEST(contains(complaint({"render", "s.toml", "--resolution", size}), "--resolution"), size);
   }
+}
+
+BOOST_AUTO_TEST_CASE(an_empty_argument_is_refused_whatever_it_is_for) {
+  BOOST_TEST(contains(complaint({"render", "s.toml", "--tile-size", ""}), "argument 4 is empty"));
+  BOOST_TEST(contains(complaint({"render", "s.toml", "", "-q"}), "argument 3 is empty"));
+}
+
+BOOST_AUTO_TEST_CASE(counts_must_be_whole_numbers) {
+  for (const char* option : {"--spp", "--max-bounces", "--prefetch"}) {
+    for (const char* count : {"-1", "1.5", "x", "99999999999"}) {
+      BOOST_TEST(contains(complaint({"render", "s.toml", option, count}), option), option << " " << count);
+    }
+  }
+  BOOST_TEST(contains(complaint({"compare", "a.png", "b.png", "--tolerance", "nan"}), "--tolerance"));
 }
 
 BOOST_AUTO_TEST_CASE(a_crop_must_be_four_numbers_of_a_non_empty_part) {

@@ -28,8 +28,8 @@ struct Scenes {
   }
 };
 
-const std::string kMaterials = "[material.gold]\n[material.grey]\n";  // two lines
-const std::string kCamera = "[camera]\neye = [1, 1, 1]\n";            // two lines
+const std::string kMaterials = "[material.gold]\n[material.grey]\n";            // two lines
+const std::string kCamera = "[camera]\neye = [1, 1, 1]\ntarget = [0, 0, 0]\n";  // three lines
 
 }  // namespace
 
@@ -131,11 +131,12 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_rendered_is_refused_at_its_value) {
   BOOST_TEST(message("[image]\nwidth = 5\nheight = 0") == "s.toml:3:10: height must be 1 to 65536 (it is 0)");
   BOOST_TEST(message("[image]\nsamples = 5").starts_with("s.toml:2:11: samples must be a square number (it is 5)"));
   BOOST_TEST(message("[image]\nsamples = 5").find("4 or 9") != std::string::npos);
-  BOOST_TEST(message(kCamera + "target = [1, 1, 1]").starts_with("s.toml:2:7: eye and target are the same"));
-  BOOST_TEST(message(kCamera + "up = [2, 2, 2]").starts_with("s.toml:3:6: up is parallel"));
-  BOOST_TEST(message(kCamera + "up = [0, 0, 0]").starts_with("s.toml:3:6: up must not be zero"));
-  BOOST_TEST(message(kCamera + "fov = 180").starts_with("s.toml:3:7: fov must be in (0, 180)"));
-  BOOST_TEST(message(kCamera + "height = 0").starts_with("s.toml:3:10: height must be > 0"));
+  BOOST_TEST(
+      message("[camera]\neye = [1, 1, 1]\ntarget = [1, 1, 1]").starts_with("s.toml:2:7: eye and target are the same"));
+  BOOST_TEST(message(kCamera + "up = [2, 2, 2]").starts_with("s.toml:4:6: up is parallel"));
+  BOOST_TEST(message(kCamera + "up = [0, 0, 0]").starts_with("s.toml:4:6: up must not be zero"));
+  BOOST_TEST(message(kCamera + "fov = 180").starts_with("s.toml:4:7: fov must be in (0, 180)"));
+  BOOST_TEST(message(kCamera + "height = 0").starts_with("s.toml:4:10: height must be > 0"));
   BOOST_TEST(message("[environment]\nambient = [0, -1, 0]").starts_with("s.toml:2:11: ambient must be"));
   BOOST_TEST(message("[[light]]\ndirection = [0, 0, 0]").starts_with("s.toml:2:13: direction must not be zero"));
   BOOST_TEST(message("[[light]]\nposition = [0, 0, 0]\ncolor = [0, -1, 0]").starts_with("s.toml:3:9: color must be"));
@@ -143,7 +144,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_rendered_is_refused_at_its_value) {
              "s.toml:3:13: intensity must be >= 0 (found -1)");
   BOOST_TEST(message("[[light]]\nposition = [0, 0, 0]\ncolor = [-1, -1, -1]\nintensity = -1")
                  .starts_with("s.toml:3:9: color must be"));
-  BOOST_TEST(message("[[light]]\nposition = [0, 0, 0]\ncolor = [1e300, 0, 0]\nintensity = 1e300") ==
+  BOOST_TEST(message("[[light]]\nposition = [0, 0, 0]\ncolor = [1e20, 0, 0]\nintensity = 1e20") ==
              "s.toml:4:13: intensity times color is out of range");
   BOOST_TEST(message("[material.a]\nreflection = 1.5") == "s.toml:2:14: reflection must be in [0, 1] (it is 1.5)");
   for (const char* key : {"ambient", "diffuse", "specular", "shininess"}) {
@@ -159,7 +160,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_rendered_is_refused_at_its_value) {
 
 BOOST_AUTO_TEST_CASE(keys_that_exclude_or_need_each_other_are_checked) {
   BOOST_TEST(message(kCamera + "fov = 30\nheight = 2") ==
-             "s.toml:4:10: height and fov exclude each other (height is for orthographic)");
+             "s.toml:5:10: height and fov exclude each other (height is for orthographic)");
   BOOST_TEST(message("[[light]]\nposition = [0, 0, 0]\ndirection = [0, 0, 1]") ==
              "s.toml:3:13: direction and position exclude each other");
   BOOST_TEST(message("[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nchecker_size = 1") ==
@@ -173,7 +174,7 @@ BOOST_AUTO_TEST_CASE(words_that_are_no_choice_are_refused) {
              "s.toml:2:12: transfer must be \"srgb\" or \"none\" (found \"sgrb\"), did you mean \"srgb\"?");
   BOOST_TEST(message("[image]\nshade = 1") == "s.toml:2:9: shade must be \"phong\" or \"blinn\" (found 1)");
   BOOST_TEST(message(kCamera + "handedness = \"up\"") ==
-             "s.toml:3:14: handedness must be \"right\" or \"left\" (found \"up\")");
+             "s.toml:4:14: handedness must be \"right\" or \"left\" (found \"up\")");
   BOOST_TEST(message("[generate]\nkind = \"clod\"") ==
              "s.toml:2:8: kind must be \"sphereflake\" or \"cloud\" (found \"clod\"), did you mean \"cloud\"?");
 }

@@ -68,8 +68,8 @@ shade = "blinn"
   BOOST_TEST((defaults.shade == Shade::phong));
 }
 
-BOOST_AUTO_TEST_CASE(camera_needs_only_an_eye) {
-  const auto camera = scene("[camera]\neye = [2.5, 1, 1]").camera.value();
+BOOST_AUTO_TEST_CASE(camera_needs_only_eye_and_target) {
+  const auto camera = scene("[camera]\neye = [2.5, 1, 1]\ntarget = [0, 0, 0]").camera.value();
   BOOST_TEST((camera.eye == Vec3{2.5, 1, 1}));
   BOOST_TEST((camera.target == Vec3{0, 0, 0}));
   BOOST_TEST((camera.up == Vec3{0, 0, 1}));
@@ -93,7 +93,8 @@ handedness = "left"
   BOOST_TEST(perspective.fov == 30.5);
   BOOST_TEST((perspective.handedness == Handedness::left));
 
-  const auto orthographic = scene("[camera]\neye = [1, 2, 3]\nheight = 4\nhandedness = \"right\"").camera.value();
+  const auto orthographic =
+      scene("[camera]\neye = [1, 2, 3]\ntarget = [0, 0, 0]\nheight = 4\nhandedness = \"right\"").camera.value();
   BOOST_TEST((orthographic.projection == Projection::orthographic));
   BOOST_TEST(orthographic.height == 4);
   BOOST_TEST((orthographic.handedness == Handedness::right));
@@ -270,7 +271,8 @@ BOOST_AUTO_TEST_CASE(integers_will_do_where_numbers_are_expected) {
 }
 
 BOOST_AUTO_TEST_CASE(any_line_end_will_do) {
-  BOOST_TEST(scene("[image]\r\nwidth = 99\r\n\r\n[camera]\r\neye = [1, 1, 1]\r\n").image.width == 99u);
+  BOOST_TEST(scene("[image]\r\nwidth = 99\r\n\r\n[camera]\r\neye = [1, 1, 1]\r\ntarget = [0, 0, 0]\r\n").image.width ==
+             99u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
