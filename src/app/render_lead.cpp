@@ -147,7 +147,7 @@ void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tile
   fill_stats(stats_, job_, team_, tiles, mosaic.rays(), run);
   if (stats_file_) stats_file_->write(to_json(stats_));
   if (tile_stats_file_) tile_stats_file_->write(tile_stats_csv(tile_rows(tiles, mosaic.rays(), run)));
-  // Either all of them appear or none.
+  // No file gets its name before all of them are written.
   picture_->commit();
   if (stats_file_) stats_file_->commit();
   if (tile_stats_file_) tile_stats_file_->commit();

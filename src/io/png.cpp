@@ -12,8 +12,6 @@
 #include <stdexcept>
 
 #include "io/error.h"
-#include "io/output_file.h"
-#include "io/read_file.h"
 
 // libpng leaves a function on an error by longjmp, which skips destructors. So each call to setjmp stands in a
 // function that owns nothing: what it works on belongs to its caller.
@@ -178,17 +176,6 @@ render::Image decode_png(std::string_view bytes, const std::string& name) {
   Rows rows = rows_of(image.bytes.data(), bytes_per_row, height);
   if (!read_pixels(handle, rows)) throw unreadable(name, handle.error);
   return image;
-}
-
-void write_png(const std::filesystem::path& path, const render::Image& image, render::Transfer transfer,
-               const PngText& text) {
-  OutputFile file(path);
-  file.write(encode_png(image, transfer, text));
-  file.commit();
-}
-
-render::Image read_png(const std::filesystem::path& path) {
-  return decode_png(read_file(path), path.string());
 }
 
 }  // namespace tessera::io

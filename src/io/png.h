@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,12 +22,5 @@ std::string encode_png(const render::Image& image, render::Transfer transfer, co
 /// Any PNG as rgb8 or rgb16: grey and palette expanded, alpha dropped.
 /// throws:  Error(bad_scene) that begins with `name`
 render::Image decode_png(std::string_view bytes, const std::string& name);
-
-/// throws:  Error(cannot_create / io_failure)
-void write_png(const std::filesystem::path& path, const render::Image& image, render::Transfer transfer,
-               const PngText& text);
-
-/// throws:  Error(input_missing / io_failure / bad_scene)
-render::Image read_png(const std::filesystem::path& path);
 
 }  // namespace tessera::io

@@ -170,16 +170,6 @@ BOOST_AUTO_TEST_CASE(grey_palette_and_alpha_become_rgb) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(files_are_written_and_read) {
-  const test::TempFolder folder;
-  const Image image = random_image(5, 4, PixelFormat::rgb8);
-  write_png(folder / "a.png", image, Transfer::srgb, {});
-  BOOST_TEST((read_png(folder / "a.png").bytes == image.bytes));
-  const auto error = error_of([&] { read_png(folder / "b.png"); });
-  BOOST_TEST_REQUIRE(error.has_value());
-  BOOST_TEST((error->kind() == ErrorKind::input_missing));
-}
-
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace tessera::io
