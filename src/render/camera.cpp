@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "render/power.h"
 
 namespace tessera::render {
 namespace {
@@ -11,8 +12,7 @@ namespace {
 constexpr double kFramedFov = 35;
 
 double half_height_of(const Camera& camera) {
-  return camera.projection == Projection::orthographic ? camera.height / 2
-                                                       : std::tan(camera.fov * (std::numbers::pi / 360));
+  return camera.projection == Projection::orthographic ? camera.height / 2 : tangent_of_degrees(camera.fov / 2);
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ Camera framed_camera(const Box& bounds, std::uint32_t width, std::uint32_t heigh
   const Vec3 up{0, 0, 1};
   const Vec3 right = normalized(cross(up, backward));
   const Vec3 screen_up = cross(backward, right);
-  const double tan_y = std::tan(kFramedFov * (std::numbers::pi / 360));
+  const double tan_y = tangent_of_degrees(kFramedFov / 2);
   const double tan_x = tan_y * width / height;
 
   // Step back until each corner is inside both pairs of the picture's edges.

@@ -25,6 +25,13 @@ inline TwoTerm two_sum(double a, double b) noexcept {
   return {hi, (a - (hi - b_part)) + (b - b_part)};
 }
 
+/// hi + lo = a + b exactly, for |a| >= |b| or a = 0.
+/// source:  Dekker, A floating-point technique for extending the available precision (1971)
+inline TwoTerm quick_two_sum(double a, double b) noexcept {
+  const double hi = a + b;
+  return {hi, b - (hi - a)};
+}
+
 /// hi + lo = a - b exactly.
 inline TwoTerm two_diff(double a, double b) noexcept {
   return two_sum(a, -b);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 
+#include "render/power.h"
 #include "render/scene_data.h"
 
 // Light reflected by a surface itself, without mirrors.
@@ -22,7 +23,7 @@ inline Rgb reflected_light(const Material& material, const Rgb& intensity, Shade
     const double cosine = shade == Shade::phong ? 2 * n_l * dot(normal, to_viewer) - dot(to_light, to_viewer)
                                                 : dot(normal, normalized(to_light + to_viewer));
     if (cosine > 0) {
-      const double highlight = material.specular * std::pow(cosine, material.shininess);
+      const double highlight = material.specular * power(std::min(cosine, 1.0), material.shininess);
       sum += Rgb{highlight, highlight, highlight};
     }
   }
