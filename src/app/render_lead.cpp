@@ -16,6 +16,7 @@
 #include "io/scene_reader.h"
 #include "render/camera.h"
 #include "render/check.h"
+#include "render/scale.h"
 
 namespace tessera::app {
 namespace {
@@ -100,6 +101,10 @@ void RenderLead::read_scene() {
     throw UsageError("--crop reaches out of the picture (it is " + std::to_string(image.width) + "x" +
                      std::to_string(image.height) + ")");
   }
+  if (const auto problem = problem_with_span(job_.scene)) {
+    throw io::Error(io::ErrorKind::bad_scene, options_.input.string() + ": " + *problem);
+  }
+  job_.scene = unit_scaled(std::move(job_.scene));
   if (job_.scene.camera) return;
   job_.scene.camera = framed_camera(bounds_of(job_.scene), image.width, image.height);
   if (const auto problem = problem_with(*job_.scene.camera)) {

@@ -15,9 +15,6 @@ inline constexpr std::uint32_t kMaxImageSide = 65536;
 /// Most samples per pixel, a square.
 inline constexpr std::uint32_t kMaxSamples = 65536;
 
-/// Coordinates and radii may not be larger than this, and a radius other than 0 not smaller than its reciprocal: the
-/// squares of distances must be numbers.
-inline constexpr double kLargestLength = 1e152;
 /// Largest colour, weight or shininess: their products must be numbers.
 inline constexpr double kLargestWeight = 1e30;
 
@@ -29,5 +26,8 @@ std::optional<std::string> problem_with(const Light& light);
 std::optional<std::string> problem_with(const Camera& camera);
 std::optional<std::string> problem_with(const Environment& environment);
 std::optional<std::string> problem_with(const ImageSettings& image);
+
+/// The scene as a whole: its lengths may not span more than kLargestSpan of scale.h.
+std::optional<std::string> problem_with_span(const SceneData& scene);
 
 }  // namespace tessera::render

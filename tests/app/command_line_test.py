@@ -231,7 +231,7 @@ class CommandLineTest(unittest.TestCase):
         self.bad_scene("[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n", "same point")
         self.bad_scene("[camera]\neye = [0, 0, 3]\ntarget = [0, 0, 0]\n", "parallel")
         self.bad_scene("[camera]\neye = [0, 0, 3]\n", ["bad.toml:1:", "target"])
-        self.bad_scene("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1e200\n", ["bad.toml:3:10:", "scale the scene"])
+        self.bad_scene("[[sphere]]\ncenter = [0, 0, 1e200]\nradius = 1e-2\n", ["bad.toml:", "span from 0.01 to 1e+200"])
         self.bad_scene("[material.hot]\ncolor = [1e300, 1, 1]\n", "bad.toml:2:9:")
         self.bad_scene("[image]\nwidth = 0\n", "bad.toml:2:9:")
         self.bad_scene("[image]\nsamples = 5\n", "4 or 9")
