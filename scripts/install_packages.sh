@@ -11,6 +11,7 @@ packages=(
   libpng-dev                            # pictures
   libcli11-dev                          # the command line
   libtomlplusplus-dev                   # scene files
+  libgmp-dev                            # integers of any size, for exact decisions
 )
 if [ "${1:-}" = test ]; then
   packages+=(

@@ -4,22 +4,17 @@
 #include <algorithm>
 #include <limits>
 
+#include "render/order.h"
+#include "render/plane.h"
 #include "render/sphere.h"
 
 namespace tessera::render {
 namespace {
 
-/// Distance to a plane that the ray runs towards, or nullopt. The origin is before the plane on the region's side,
-/// whatever rounding says.
-std::optional<double> distance_to_plane(const Ray& ray, const Plane& plane, int side) noexcept {
-  const double approach = dot(plane.normal, ray.direction);
-  if (!(approach * side < 0)) return std::nullopt;
-  return std::max(dot(plane.point - ray.origin, plane.normal) / approach, 0.0);
-}
-
-/// Where the ray, inside of `sphere`, leaves it. `ray.from` being that sphere, its own chord says so exactly.
-double distance_to_exit(const Ray& ray, const DirectionNorm& norm, const Sphere& sphere, SurfaceId id) noexcept {
-  return ray.from == id ? own_chord(ray, norm, sphere.radius) : exit_from(ray, norm, sphere.center, sphere.radius).t;
+/// Where the ray, inside of `sphere`, leaves it. `ray.from` being that sphere, its own chord says so.
+Candidate exit_candidate(const Ray& ray, const DirectionNorm& norm, const Sphere& sphere, SurfaceId id) noexcept {
+  if (ray.from == id) return {id, Meeting::own_exit, own_chord(ray, norm, sphere.radius)};
+  return {id, Meeting::exit, exit_from(ray, norm, sphere.center, sphere.radius).t};
 }
 
 Vec3 exit_normal(const Ray& ray, const DirectionNorm& norm, const Sphere& sphere, SurfaceId id) noexcept {
@@ -33,49 +28,65 @@ Hit sphere_hit(const Sphere& sphere, SurfaceId id, double t, const Vec3& normal)
   return {id, t, sphere.center + sphere.radius * normal, normal};
 }
 
+/// `ray` with a direction that can be squared: its own where it can, else 2^k times it.
+struct SquarableRay {
+  Ray ray;
+  int k = 0;
+  DirectionNorm norm;
+
+  explicit SquarableRay(const Ray& given) noexcept : ray(given), norm(norm_of(given.direction)) {
+    if (is_squarable(norm.squared)) return;
+    ray.direction = rescaled(given.direction, k);
+    norm = norm_of(ray.direction);
+  }
+};
+
 }  // namespace
 
-std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region& region) noexcept {
-  const DirectionNorm norm = norm_of(ray.direction);
-  double best = std::numeric_limits<double>::infinity();
-  SurfaceId winner = SurfaceId::none;
-  const auto take = [&](double t, SurfaceId id) {
-    if (t < best || (t == best && id < winner)) {
-      best = t;
-      winner = id;
-    }
+std::optional<Hit> nearest_hit(const Scene& scene, const Ray& given, const Region& region) noexcept {
+  const auto [ray, k, norm] = SquarableRay(given);
+  Candidate best;
+  double latest = std::numeric_limits<double>::infinity();  // no hit after this can be the first
+  const auto take = [&](const Candidate& candidate) {
+    if (best.surface != SurfaceId::none && !comes_first(scene, ray, candidate, best)) return false;
+    best = candidate;
+    latest = candidate.latest();
+    return true;
   };
 
   // Spheres around the path: the far side is the hit.
-  for (const SurfaceId id : region.walls()) take(distance_to_exit(ray, norm, scene.sphere(id), id), id);
+  for (const SurfaceId id : region.walls()) take(exit_candidate(ray, norm, scene.sphere(id), id));
   // All other spheres: the near side. A convex body that was just left cannot be met again.
   Crossing entry{};
-  scene.visit_along(ray, best, [&](const LeafSphere& sphere) {
-    if (surely_misses(ray, norm, sphere.center, sphere.radius)) return false;
+  scene.visit_along(ray, latest, [&](const LeafSphere& sphere) {
+    const FirstLook look(ray, norm, sphere.center, sphere.radius);
+    if (look.surely_misses() || look.surely_enters_after(latest, norm, sphere.radius)) return false;
     if (sphere.id == ray.from || region.is_inside(sphere.id)) return false;
     const auto crossing = entry_into(ray, norm, sphere.center, sphere.radius);
-    if (!crossing) return false;
-    take(crossing->t, sphere.id);
-    if (winner == sphere.id) entry = *crossing;
+    if (crossing && take({sphere.id, Meeting::entry, crossing->t})) entry = *crossing;
     return false;
   });
   for (std::size_t i = 0; i != scene.data().planes.size(); ++i) {
     const SurfaceId id = scene.plane_id(i);
     if (id == ray.from) continue;
-    if (const auto t = distance_to_plane(ray, scene.data().planes[i], region.side_of(i))) take(*t, id);
+    if (const auto t = distance_to(scene.data().planes[i], ray, region.side_of(i))) {
+      take({id, Meeting::plane, *t});
+    }
   }
 
-  if (winner == SurfaceId::none) return std::nullopt;
-  if (!scene.is_sphere(winner)) {
-    return Hit{winner, best, ray.origin + best * ray.direction, normalized(scene.plane(winner).normal)};
+  if (best.surface == SurfaceId::none) return std::nullopt;
+  const double t = k == 0 ? best.t.value : std::ldexp(best.t.value, k);
+  if (best.meeting == Meeting::plane) {
+    return Hit{best.surface, t, ray.origin + best.t.value * ray.direction,
+               normalized(scene.plane(best.surface).normal)};
   }
-  const Sphere& sphere = scene.sphere(winner);
+  const Sphere& sphere = scene.sphere(best.surface);
   const Vec3 normal =
-      region.is_inside(winner) ? exit_normal(ray, norm, sphere, winner) : normal_at(entry, ray.direction);
-  return sphere_hit(sphere, winner, best, normal);
+      best.meeting == Meeting::entry ? normal_at(entry, ray.direction) : exit_normal(ray, norm, sphere, best.surface);
+  return sphere_hit(sphere, best.surface, t, normal);
 }
 
-bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light_index, const Region& region) noexcept {
+bool is_occluded(const Scene& scene, const Ray& given, std::size_t light_index, const Region& region) noexcept {
   // A plane blocks exactly if the light is on its other side.
   for (std::size_t i = 0; i != scene.data().planes.size(); ++i) {
     if (scene.light_side(light_index, i) == -region.side_of(i)) return true;
@@ -92,19 +103,26 @@ bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light_inde
     if (!holds(placement.enclosing, id) && !holds(placement.touching, id)) return true;
   }
 
-  // All others block where they are entered before the light.
+  // All others block where the line meets them between its ends: neither end is inside, so it is enough that the
+  // point nearest to the centre lies between.
   const Light& light = scene.data().lights[light_index];
-  const double end = light.kind == LightKind::point ? 1 : std::numeric_limits<double>::infinity();
-  const DirectionNorm norm = norm_of(to_light.direction);
+  const bool is_point = light.kind == LightKind::point;
+  const auto [to_light, k, norm] = SquarableRay(given);
+  const double end = is_point ? std::ldexp(1.0, -k) : std::numeric_limits<double>::infinity();
   bool blocked = false;
   scene.visit_along(to_light, end, [&](const LeafSphere& sphere) {
-    if (surely_misses(to_light, norm, sphere.center, sphere.radius)) return false;
+    const FirstLook look(to_light, norm, sphere.center, sphere.radius);
+    if (look.surely_misses()) return false;
     if (sphere.id == to_light.from || region.is_inside(sphere.id)) return false;
     // The light is on this sphere, on the side that the ray comes from: that is the end point, which is open.
-    if (holds(placement.touching, sphere.id) && dot(light.vector - sphere.center, to_light.direction) <= 0)
-      return false;
-    const auto crossing = entry_into(to_light, norm, sphere.center, sphere.radius);
-    blocked = crossing && crossing->t < end;
+    const bool touches_light = holds(placement.touching, sphere.id);
+    if (touches_light && side_of_plane(light.vector, sphere.center, to_light.direction) <= 0) return false;
+    if (!touches_light && look.surely_meets_before(end, norm)) return blocked = true;
+    const Passage passage = passage_of(to_light, norm, sphere.center, sphere.radius);
+    const bool has_end = is_point && !touches_light;
+    blocked = line_meets(passage, to_light, sphere.center, sphere.radius) &&
+              lies_ahead(passage, to_light, sphere.center) &&
+              (!has_end || nearest_point_comes_before(end, passage, to_light, norm, sphere.center));
     return blocked;
   });
   return blocked;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/region.h"
 
+#include "render/decide.h"
+#include "render/plane.h"
+
 namespace tessera::render {
 
 Region::Region(const Scene& scene, const Placement& placement, const Vec3& eye, const Vec3& direction)
     : enclosing_(placement.enclosing) {
-  const auto enters = [&](SurfaceId sphere) { return dot(scene.sphere(sphere).center - eye, direction) > 0; };
+  const auto enters = [&](SurfaceId sphere) { return side_of_plane(scene.sphere(sphere).center, eye, direction) > 0; };
   for (const SurfaceId surface : placement.touching) {
     if (scene.is_sphere(surface) && enters(surface)) enclosing_.push_back(surface);
   }
@@ -19,8 +22,8 @@ Region::Region(const Scene& scene, const Placement& placement, const Vec3& eye, 
   }
 
   for (const Plane& plane : scene.data().planes) {
-    int side = side_of_plane(eye, plane);
-    if (side == 0) side = dot(plane.normal, direction) < 0 ? -1 : 1;
+    int side = render::side_of(eye, plane);
+    if (side == 0) side = heading_of(direction, plane) < 0 ? -1 : 1;
     plane_sides_.push_back(static_cast<std::int8_t>(side));
   }
 }

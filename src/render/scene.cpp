@@ -5,27 +5,10 @@
 #include <utility>
 
 #include "render/bvh_build.h"
+#include "render/plane.h"
 #include "render/sphere.h"
 
 namespace tessera::render {
-
-namespace {
-
-int sign_of(double x) noexcept {
-  return x > 0 ? 1 : x < 0 ? -1 : 0;
-}
-
-}  // namespace
-
-int side_of_plane(const Vec3& point, const Plane& plane) noexcept {
-  const ExactDifference f = exact_difference(point, plane.point);
-  CompensatedSum distance;
-  distance.add_product(f.hi.x, plane.normal.x);
-  distance.add_product(f.hi.y, plane.normal.y);
-  distance.add_product(f.hi.z, plane.normal.z);
-  distance.add_small(dot(f.lo, plane.normal));
-  return sign_of(distance.value());
-}
 
 Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(kernel) {
   if (kernel_ == Kernel::tree) bvh_ = build_bvh(data_.spheres);
@@ -33,7 +16,7 @@ Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(ke
     const bool is_point = light.kind == LightKind::point;
     light_placements_.push_back(is_point ? placement_of(light.vector) : Placement{});
     for (const Plane& plane : data_.planes) {
-      const int side = is_point ? side_of_plane(light.vector, plane) : -sign_of(dot(plane.normal, light.vector));
+      const int side = is_point ? side_of(light.vector, plane) : -heading_of(light.vector, plane);
       light_sides_.push_back(static_cast<std::int8_t>(side));
     }
   }
@@ -42,9 +25,9 @@ Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(ke
 Placement Scene::placement_of(const Vec3& point) const {
   Placement placement;
   const auto place = [&](const LeafSphere& sphere) {
-    const double power = power_of_point(exact_difference(sphere.center, point), sphere.radius);
-    if (power < 0) placement.enclosing.push_back(sphere.id);
-    if (power == 0) placement.touching.push_back(sphere.id);
+    const int side = side_of(point, sphere.center, sphere.radius);
+    if (side < 0) placement.enclosing.push_back(sphere.id);
+    if (side == 0) placement.touching.push_back(sphere.id);
   };
   if (kernel_ == Kernel::tree) {
     bvh_.visit_at(point, place);
@@ -55,7 +38,7 @@ Placement Scene::placement_of(const Vec3& point) const {
     }
   }
   for (std::size_t i = 0; i != data_.planes.size(); ++i) {
-    if (side_of_plane(point, data_.planes[i]) == 0) placement.touching.push_back(plane_id(i));
+    if (side_of(point, data_.planes[i]) == 0) placement.touching.push_back(plane_id(i));
   }
   std::sort(placement.enclosing.begin(), placement.enclosing.end());
   std::sort(placement.touching.begin(), placement.touching.end());

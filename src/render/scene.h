@@ -62,7 +62,4 @@ class Scene {
   std::vector<std::int8_t> light_sides_;  ///< lights x planes
 };
 
-/// -1 behind, 0 on, +1 before a plane, as its normal points.
-int side_of_plane(const Vec3& point, const Plane& plane) noexcept;
-
 }  // namespace tessera::render

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "render/bounded.h"
+#include "render/decide.h"
 #include "render/exact.h"
 #include "render/ray.h"
 #include "render/scene_data.h"
@@ -14,6 +16,9 @@
 // Hit or miss is read from Lagrange's identity (f.d)^2 - f^2 d^2 = -|f x d|^2 with f = C - O: compare the length
 // l = |f x d| with R = r |d|. Neither is a difference of large numbers, so distance costs no accuracy; the
 // textbook discriminant b^2 - 4ac loses all digits once the sphere is 1e8 radii away.
+//
+// Every quantity that something is decided on carries a bound on its rounding error; where the bound reaches over the
+// decision, decide.h decides exactly. The bounds hold for scenes of unit scale, see scale.h.
 namespace tessera::render {
 
 /// A direction with what every sphere test needs of it.
@@ -27,43 +32,60 @@ inline DirectionNorm norm_of(const Vec3& direction) noexcept {
   return {a, std::sqrt(a)};
 }
 
-/// The power of `point` against a sphere, |C - point|^2 - r^2: < 0 inside, 0 on, > 0 outside.
-/// shapes:  f = C - point, exactly
-/// error:   as if computed in twice the precision and rounded once
-inline double power_of_point(const ExactDifference& f, double radius) noexcept {
-  CompensatedSum power;
-  power.add_product(f.hi.x, f.hi.x);
-  power.add_product(f.hi.y, f.hi.y);
-  power.add_product(f.hi.z, f.hi.z);
-  power.add_product(-radius, radius);
-  power.add_small(2 * dot(f.hi, f.lo));
-  return power.value();
+/// -1 for a point inside a sphere, 0 on it, +1 outside; exact.
+inline int side_of(const Vec3& point, const Vec3& center, double radius) noexcept {
+  return bounded_power(exact_difference(center, point), radius).sign_or([&] {
+    return side_of_sphere(point, center, radius);
+  });
 }
 
-/// How a line passes a sphere; both roots and both normals follow from it.
-struct Chord {
-  double discriminant;  ///< (R - l)(R + l): < 0 where the line misses, 0 where it touches
-  double b;             ///< f.d
-  double c;             ///< power of the origin
-  double s;             ///< half the chord times |d|, 0 for a line that misses
-  Vec3 w;               ///< f x d
+/// A first look at a sphere from a ray outside of it, in plain double precision. What it calls sure is sure; where it
+/// is not, the exact test below decides. It spares most spheres of a leaf that test.
+/// error:   f, its products and their sums are off by at most 8u |f||d|, and so l^2 and b by the slacks below
+class FirstLook {
+ public:
+  FirstLook(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
+    const Vec3 f = center - ray.origin;
+    const Vec3 w = cross(f, ray.direction);
+    const double reach = radius * radius * norm.squared;
+    const double scale = dot(f, f) * norm.squared;
+    excess_ = dot(w, w) - reach;
+    excess_slack_ = 32 * kUnitRoundoff * (scale + reach);
+    b_ = dot(f, ray.direction);
+    b_slack_squared_ = 64 * kUnitRoundoff * kUnitRoundoff * scale;
+  }
+
+  /// The line passes the sphere, or the sphere lies behind.
+  bool surely_misses() const noexcept { return excess_ > excess_slack_ || (b_ < 0 && b_ * b_ > b_slack_squared_); }
+  /// If the ray meets the sphere at all, then after `t`.
+  bool surely_enters_after(double t, const DirectionNorm& norm, double radius) const noexcept {
+    const double margin = b_ - (radius * norm.length + t * norm.squared) * (1 + 8 * kUnitRoundoff);
+    return margin > 0 && margin * margin > b_slack_squared_;
+  }
+  /// The ray meets the sphere, and the point of the line nearest to the centre comes before `end` times the direction.
+  bool surely_meets_before(double end, const DirectionNorm& norm) const noexcept {
+    const double left = end * norm.squared * (1 - 8 * kUnitRoundoff) - b_;
+    return excess_ < -excess_slack_ && b_ > 0 && b_ * b_ > b_slack_squared_ && left > 0 &&
+           left * left > b_slack_squared_;
+  }
+
+ private:
+  double excess_;  ///< l^2 - R^2
+  double excess_slack_;
+  double b_;
+  double b_slack_squared_;
 };
 
-/// True only for a sphere that the ray cannot meet from outside: passed at a distance or lying behind, by more
-/// than the rounding error of this test. False decides nothing.
-/// error:   f, its products and their sums are off by at most 8u |f||d|, so l^2 and b by the guards below
-inline bool surely_misses(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
-  const Vec3 f = center - ray.origin;
-  const Vec3 w = cross(f, ray.direction);
-  const double reach = radius * radius * norm.squared;
-  const double scale = dot(f, f) * norm.squared;
-  if (dot(w, w) - reach > 32 * kUnitRoundoff * (scale + reach)) return true;
-  const double b = dot(f, ray.direction);
-  return b < 0 && b * b > 64 * kUnitRoundoff * kUnitRoundoff * scale;
-}
+/// How a line passes a sphere; both roots and both normals follow from it.
+struct Passage {
+  ExactDifference f;     ///< C - O
+  Vec3 w;                ///< f x d
+  Bounded discriminant;  ///< (R - l)(R + l): < 0 where the line misses, 0 where it touches
+  Bounded b;             ///< f.d
+};
 
-/// error:   l, R, b and c are off by a few u of themselves
-inline Chord chord_of(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
+/// error:   w is off by 4u l + 16u^2 |f||d|, so l by 7u l and twice the rest, R by 4u R; |f||d| <= |b| + l
+inline Passage passage_of(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
   // Take the centre relative to the origin exactly.
   const ExactDifference f = exact_difference(center, ray.origin);
   const Vec3 w = exact_cross(f.hi, ray.direction) + cross(f.lo, ray.direction);
@@ -73,54 +95,92 @@ inline Chord chord_of(const Ray& ray, const DirectionNorm& norm, const Vec3& cen
   const double r = radius * norm.length;
   const double discriminant = (r - l) * (r + l);
 
-  // Project the centre on the line.
-  CompensatedSum b;
-  b.add_product(f.hi.x, ray.direction.x);
-  b.add_product(f.hi.y, ray.direction.y);
-  b.add_product(f.hi.z, ray.direction.z);
-  b.add_small(dot(f.lo, ray.direction));
-  return {discriminant, b.value(), power_of_point(f, radius), std::sqrt(std::max(discriminant, 0.0)), w};
+  const Bounded b = bounded_dot(f, ray.direction);
+  const double off = 10 * kUnitRoundoff * (r + l) + 32 * kUnitRoundoff * kUnitRoundoff * std::abs(b.value);
+  return {f, w, {discriminant, 2 * off * (r + l + off)}, b};
+}
+
+/// Whether the line of `ray` meets the sphere or touches it; exact.
+inline bool line_meets(const Passage& passage, const Ray& ray, const Vec3& center, double radius) noexcept {
+  return passage.discriminant.sign_or([&] { return line_meets_sphere(ray.origin, ray.direction, center, radius); }) >=
+         0;
+}
+
+/// Whether the sphere's centre lies ahead of the origin; exact.
+inline bool lies_ahead(const Passage& passage, const Ray& ray, const Vec3& center) noexcept {
+  return passage.b.sign_or([&] { return side_of_plane(center, ray.origin, ray.direction); }) > 0;
+}
+
+/// Whether the point of the line nearest to the centre comes before origin + end direction; exact.
+/// shapes:  end is a power of two
+inline bool nearest_point_comes_before(double end, const Passage& passage, const Ray& ray, const DirectionNorm& norm,
+                                       const Vec3& center) noexcept {
+  const double reach = end * norm.squared;
+  const Bounded gap{passage.b.value - reach, passage.b.error + 8 * kUnitRoundoff * (reach + std::abs(passage.b.value))};
+  return gap.sign_or([&] { return nearest_point_against_end(ray.origin, ray.direction, end, center); }) < 0;
+}
+
+/// Half the chord times |d|, 0 for a line that touches or misses.
+inline Bounded half_chord(const Passage& passage) noexcept {
+  const auto [discriminant, error] = passage.discriminant;
+  const double s = std::sqrt(std::max(discriminant, 0.0));
+  // |sqrt x - sqrt y| is at most |x - y| / sqrt x, and at most sqrt |x - y|.
+  return {s, discriminant > error ? error / s : 2 * std::sqrt(error)};
 }
 
 /// Which of the two crossings of a sphere.
 enum class Root { near, far };
 
-/// A crossing: its distance and the chord that gives the normal.
+/// A crossing: its distance and what gives the normal.
 struct Crossing {
-  double t;
+  Bounded t;
   Root root;
-  Chord chord;
+  double s;  ///< half the chord times |d|
+  Vec3 w;    ///< f x d
 };
 
-/// Where a ray that starts outside of a sphere enters it, or nullopt. An origin that rounding has put a hair
-/// inside counts as on the surface (t = 0); a tangent line hits.
+/// Where a ray that starts outside of a sphere enters it, or nullopt; that is decided exactly. An origin that rounding
+/// has put a hair inside counts as on the surface (t = 0); a tangent line hits.
 /// units:   t in multiples of |d|
 inline std::optional<Crossing> entry_into(const Ray& ray, const DirectionNorm& norm, const Vec3& center,
                                           double radius) noexcept {
-  const Chord chord = chord_of(ray, norm, center, radius);
-  if (chord.discriminant < 0 || !(chord.b > 0)) return std::nullopt;
-  return Crossing{std::max(chord.c / (chord.b + chord.s), 0.0), Root::near, chord};
+  const Passage passage = passage_of(ray, norm, center, radius);
+  if (!line_meets(passage, ray, center, radius) || !lies_ahead(passage, ray, center)) return std::nullopt;
+  const Bounded s = half_chord(passage);
+  const Bounded t =
+      bounded_quotient(bounded_power(passage.f, radius), {passage.b.value + s.value, passage.b.error + s.error});
+  return Crossing{not_negative(t), Root::near, s.value, passage.w};
 }
 
 /// Where a ray that starts inside a sphere leaves it. There is always such a place: a line that rounding has put
 /// outside leaves at its closest point.
 /// units:   t in multiples of |d|
 inline Crossing exit_from(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
-  const Chord chord = chord_of(ray, norm, center, radius);
-  const double t = chord.b >= 0 ? (chord.b + chord.s) / norm.squared : chord.c / (chord.b - chord.s);
-  return {std::max(t, 0.0), Root::far, chord};
+  const Passage passage = passage_of(ray, norm, center, radius);
+  const Bounded s = half_chord(passage);
+  const double b = passage.b.value;
+  const double off = passage.b.error + s.error;
+  const auto far_end = [&](const Bounded& t) { return Crossing{not_negative(t), Root::far, s.value, passage.w}; };
+  if (b >= 0) {
+    const double sum = b + s.value;
+    return far_end(
+        bounded_quotient({sum, off + kUnitRoundoff * sum}, {norm.squared, 4 * kUnitRoundoff * norm.squared}));
+  }
+  const Bounded c = bounded_power(passage.f, radius);
+  return far_end(bounded_quotient({-c.value, c.error}, {s.value - b, off}));
 }
 
 /// The outward unit normal at a crossing, from the line's perpendicular: no large distance enters it.
 /// error:   about 7e-16 for any distance of the origin
 inline Vec3 normal_at(const Crossing& crossing, const Vec3& direction) noexcept {
-  const double along = crossing.root == Root::near ? -crossing.chord.s : crossing.chord.s;
-  return normalized(along * direction - cross(direction, crossing.chord.w));
+  const double along = crossing.root == Root::near ? -crossing.s : crossing.s;
+  return normalized(along * direction - cross(direction, crossing.w));
 }
 
 /// A ray that leaves a sphere's inner side crosses it again at t = -2 r (N.d) / (d.d), N outward at the origin.
-inline double own_chord(const Ray& ray, const DirectionNorm& norm, double radius) noexcept {
-  return std::max(-2 * radius * dot(ray.from_normal, ray.direction) / norm.squared, 0.0);
+inline Bounded own_chord(const Ray& ray, const DirectionNorm& norm, double radius) noexcept {
+  const double t = -2 * radius * dot(ray.from_normal, ray.direction) / norm.squared;
+  return not_negative({t, 16 * kUnitRoundoff * (std::abs(t) + radius / norm.length)});
 }
 
 }  // namespace tessera::render

@@ -3,6 +3,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "render/plane.h"
 #include "render/quad.h"
 #include "render/scene_fixture.h"
 #include "render/scene_kinds.h"
@@ -83,9 +84,9 @@ BOOST_AUTO_TEST_CASE(eye_on_a_plane_has_left_it_to_the_side_that_the_ray_points_
 BOOST_AUTO_TEST_CASE(side_of_a_plane_ignores_the_length_of_its_normal) {
   for (const double scale : {1e-3, 1.0, 1e3}) {
     const Plane plane{{1, 1, 1}, scale * Vec3{1, 2, -2}, {}, {}};
-    BOOST_TEST(side_of_plane({2, 1, 1}, plane) == 1);
-    BOOST_TEST(side_of_plane({1, 1, 2}, plane) == -1);
-    BOOST_TEST(side_of_plane({3, 2, 3}, plane) == 0);
+    BOOST_TEST(side_of({2, 1, 1}, plane) == 1);
+    BOOST_TEST(side_of({1, 1, 2}, plane) == -1);
+    BOOST_TEST(side_of({3, 2, 3}, plane) == 0);
   }
 }
 
