@@ -52,9 +52,10 @@ inline Bounded bounded_power(const ExactDifference& f, double radius) noexcept {
 /// n / d for d > 0, with the bound that follows from theirs; infinite where d is hardly known.
 inline Bounded bounded_quotient(const Bounded& n, const Bounded& d) noexcept {
   const double quotient = n.value / d.value;
-  const double relative = d.error / d.value + 4 * kUnitRoundoff;
+  const double inverse = 1 / d.value;  // good enough for the bound
+  const double relative = d.error * inverse + 4 * kUnitRoundoff;
   if (!(relative < 0.25)) return {quotient, std::numeric_limits<double>::infinity()};
-  return {quotient, 2 * (n.error / d.value + std::abs(quotient) * relative)};
+  return {quotient, 2 * (n.error * inverse + std::abs(quotient) * relative)};
 }
 
 /// A number that is known not to be below 0, whatever rounding says.

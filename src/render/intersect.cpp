@@ -28,29 +28,59 @@ Hit sphere_hit(const Sphere& sphere, SurfaceId id, double t, const Vec3& normal)
   return {id, t, sphere.center + sphere.radius * normal, normal};
 }
 
-/// `ray` with a direction that can be squared: its own where it can, else 2^k times it.
-struct SquarableRay {
-  Ray ray;
-  int k = 0;
-  DirectionNorm norm;
+/// `ray` in another direction.
+Ray along(Ray ray, const Vec3& direction) noexcept {
+  ray.direction = direction;
+  return ray;
+}
 
-  explicit SquarableRay(const Ray& given) noexcept : ray(given), norm(norm_of(given.direction)) {
-    if (is_squarable(norm.squared)) return;
-    ray.direction = rescaled(given.direction, k);
-    norm = norm_of(ray.direction);
-  }
-};
+bool holds(const std::vector<SurfaceId>& ids, SurfaceId id) noexcept {
+  return !ids.empty() && std::binary_search(ids.begin(), ids.end(), id);
+}
+
+/// Whether a sphere that holds neither end of the path to a light stands in it: where the line meets such a sphere
+/// between its ends. As neither end is inside, it is enough that the point nearest to the centre lies between.
+/// shapes:  the light is at to_light.origin + end to_light.direction, or infinitely far
+bool is_blocked(const Scene& scene, const Ray& to_light, const DirectionNorm& norm, double end, std::size_t light_index,
+                const Region& region) noexcept {
+  const Light& light = scene.data().lights[light_index];
+  const bool is_point = light.kind == LightKind::point;
+  const Placement& placement = scene.light_placement(light_index);
+  bool blocked = false;
+  scene.visit_along(to_light, end, [&](const LeafSphere& sphere) {
+    const FirstLook look(to_light, norm, sphere.center, sphere.radius);
+    if (look.surely_misses()) return false;
+    if (sphere.id == to_light.from || region.is_inside(sphere.id)) return false;
+    // The light is on this sphere, on the side that the ray comes from: that is the end point, which is open.
+    const bool touches_light = holds(placement.touching, sphere.id);
+    if (touches_light && side_of_plane(light.vector, sphere.center, to_light.direction) <= 0) return false;
+    if (!touches_light && look.surely_meets() && look.is_surely_before(end)) return blocked = true;
+    const Passage passage = passage_of(to_light, norm, sphere.center, sphere.radius);
+    const bool has_end = is_point && !touches_light;
+    blocked = line_meets(passage, to_light, sphere.center, sphere.radius) &&
+              lies_ahead(passage, to_light, sphere.center) &&
+              (!has_end || nearest_point_comes_before(end, passage, to_light, norm, sphere.center));
+    return blocked;
+  });
+  return blocked;
+}
 
 }  // namespace
 
-std::optional<Hit> nearest_hit(const Scene& scene, const Ray& given, const Region& region) noexcept {
-  const auto [ray, k, norm] = SquarableRay(given);
+std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region& region) noexcept {
+  const DirectionNorm norm = norm_of(ray.direction);
+  if (!is_squarable(norm.squared)) {
+    int k = 0;
+    auto hit = nearest_hit(scene, along(ray, rescaled(ray.direction, k)), region);
+    if (hit) hit->t = std::ldexp(hit->t, k);
+    return hit;
+  }
   Candidate best;
   double latest = std::numeric_limits<double>::infinity();  // no hit after this can be the first
   const auto take = [&](const Candidate& candidate) {
     if (best.surface != SurfaceId::none && !comes_first(scene, ray, candidate, best)) return false;
     best = candidate;
-    latest = candidate.latest();
+    latest = std::min(latest, candidate.latest());
     return true;
   };
 
@@ -58,14 +88,35 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& given, const Regio
   for (const SurfaceId id : region.walls()) take(exit_candidate(ray, norm, scene.sphere(id), id));
   // All other spheres: the near side. A convex body that was just left cannot be met again.
   Crossing entry{};
-  scene.visit_along(ray, latest, [&](const LeafSphere& sphere) {
-    const FirstLook look(ray, norm, sphere.center, sphere.radius);
-    if (look.surely_misses() || look.surely_enters_after(latest, norm, sphere.radius)) return false;
-    if (sphere.id == ray.from || region.is_inside(sphere.id)) return false;
+  const auto settle = [&](const LeafSphere& sphere) {
     const auto crossing = entry_into(ray, norm, sphere.center, sphere.radius);
     if (crossing && take({sphere.id, Meeting::entry, crossing->t})) entry = *crossing;
+  };
+  // The first look usually leaves one favourite, met before all others; only what it cannot tell apart is settled.
+  std::optional<LeafSphere> favourite;
+  double favourite_earliest = 0;
+  scene.visit_along(ray, latest, [&](const LeafSphere& sphere) {
+    const FirstLook look(ray, norm, sphere.center, sphere.radius);
+    if (look.surely_misses()) return false;
+    if (sphere.id == ray.from || region.is_inside(sphere.id)) return false;
+    if (!look.surely_meets()) {
+      settle(sphere);
+      return false;
+    }
+    const Bounded t = look.entry(norm);
+    if (t.value - t.error > latest) return false;
+    if (favourite && t.value + t.error >= favourite_earliest) {
+      settle(*favourite);
+      settle(sphere);
+      favourite.reset();
+      return false;
+    }
+    favourite = sphere;
+    favourite_earliest = t.value - t.error;
+    latest = std::min(latest, t.value + t.error);
     return false;
   });
+  if (favourite) settle(*favourite);
   for (std::size_t i = 0; i != scene.data().planes.size(); ++i) {
     const SurfaceId id = scene.plane_id(i);
     if (id == ray.from) continue;
@@ -75,10 +126,9 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& given, const Regio
   }
 
   if (best.surface == SurfaceId::none) return std::nullopt;
-  const double t = k == 0 ? best.t.value : std::ldexp(best.t.value, k);
+  const double t = best.t.value;
   if (best.meeting == Meeting::plane) {
-    return Hit{best.surface, t, ray.origin + best.t.value * ray.direction,
-               normalized(scene.plane(best.surface).normal)};
+    return Hit{best.surface, t, ray.origin + t * ray.direction, scene.unit_normal(best.surface)};
   }
   const Sphere& sphere = scene.sphere(best.surface);
   const Vec3 normal =
@@ -86,7 +136,7 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& given, const Regio
   return sphere_hit(sphere, best.surface, t, normal);
 }
 
-bool is_occluded(const Scene& scene, const Ray& given, std::size_t light_index, const Region& region) noexcept {
+bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light_index, const Region& region) noexcept {
   // A plane blocks exactly if the light is on its other side.
   for (std::size_t i = 0; i != scene.data().planes.size(); ++i) {
     if (scene.light_side(light_index, i) == -region.side_of(i)) return true;
@@ -96,36 +146,17 @@ bool is_occluded(const Scene& scene, const Ray& given, std::size_t light_index, 
   for (const SurfaceId id : placement.enclosing) {
     if (!region.is_inside(id)) return true;
   }
-  const auto holds = [](const std::vector<SurfaceId>& ids, SurfaceId id) {
-    return !ids.empty() && std::binary_search(ids.begin(), ids.end(), id);
-  };
   for (const SurfaceId id : region.walls()) {
     if (!holds(placement.enclosing, id) && !holds(placement.touching, id)) return true;
   }
 
-  // All others block where the line meets them between its ends: neither end is inside, so it is enough that the
-  // point nearest to the centre lies between.
   const Light& light = scene.data().lights[light_index];
-  const bool is_point = light.kind == LightKind::point;
-  const auto [to_light, k, norm] = SquarableRay(given);
-  const double end = is_point ? std::ldexp(1.0, -k) : std::numeric_limits<double>::infinity();
-  bool blocked = false;
-  scene.visit_along(to_light, end, [&](const LeafSphere& sphere) {
-    const FirstLook look(to_light, norm, sphere.center, sphere.radius);
-    if (look.surely_misses()) return false;
-    if (sphere.id == to_light.from || region.is_inside(sphere.id)) return false;
-    // The light is on this sphere, on the side that the ray comes from: that is the end point, which is open.
-    const bool touches_light = holds(placement.touching, sphere.id);
-    if (touches_light && side_of_plane(light.vector, sphere.center, to_light.direction) <= 0) return false;
-    if (!touches_light && look.surely_meets_before(end, norm)) return blocked = true;
-    const Passage passage = passage_of(to_light, norm, sphere.center, sphere.radius);
-    const bool has_end = is_point && !touches_light;
-    blocked = line_meets(passage, to_light, sphere.center, sphere.radius) &&
-              lies_ahead(passage, to_light, sphere.center) &&
-              (!has_end || nearest_point_comes_before(end, passage, to_light, norm, sphere.center));
-    return blocked;
-  });
-  return blocked;
+  const double end = light.kind == LightKind::point ? 1 : std::numeric_limits<double>::infinity();
+  const DirectionNorm norm = norm_of(to_light.direction);
+  if (is_squarable(norm.squared)) return is_blocked(scene, to_light, norm, end, light_index, region);
+  int k = 0;
+  const Ray longer = along(to_light, rescaled(to_light.direction, k));
+  return is_blocked(scene, longer, norm_of(longer.direction), std::ldexp(end, -k), light_index, region);
 }
 
 }  // namespace tessera::render

@@ -136,9 +136,7 @@ bool coincide(const Scene& scene, const Candidate& a, const Candidate& b) noexce
 
 }  // namespace
 
-bool comes_first(const Scene& scene, const Ray& ray, const Candidate& a, const Candidate& b) noexcept {
-  if (a.t.value + a.t.error < b.t.value - b.t.error) return true;
-  if (b.t.value + b.t.error < a.t.value - a.t.error) return false;
+bool comes_first_exactly(const Scene& scene, const Ray& ray, const Candidate& a, const Candidate& b) noexcept {
   const int order = coincide(scene, a, b) ? 0 : compare(scene, ray, a, b);
   return order < 0 || (order == 0 && a.surface < b.surface);
 }

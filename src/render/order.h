@@ -23,10 +23,18 @@ struct Candidate {
   Meeting meeting = Meeting::entry;
   Bounded t;
 
+  double earliest() const noexcept { return t.value - t.error; }
   double latest() const noexcept { return t.value + t.error; }
 };
 
+/// The same where double precision cannot tell.
+bool comes_first_exactly(const Scene& scene, const Ray& ray, const Candidate& a, const Candidate& b) noexcept;
+
 /// Whether `ray` meets `a` before `b`; exact. Distances below 0 count as 0, equal ones go to the lower surface.
-bool comes_first(const Scene& scene, const Ray& ray, const Candidate& a, const Candidate& b) noexcept;
+inline bool comes_first(const Scene& scene, const Ray& ray, const Candidate& a, const Candidate& b) noexcept {
+  if (a.latest() < b.earliest()) return true;
+  if (b.latest() < a.earliest()) return false;
+  return comes_first_exactly(scene, ray, a, b);
+}
 
 }  // namespace tessera::render

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "render/decide.h"
-
 namespace tessera::render {
 namespace {
 
@@ -14,28 +12,7 @@ Vec3 least_aligned_axis(const Vec3& n) noexcept {
   return a.y <= a.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
 }
 
-Bounded approach(const Vec3& direction, const Plane& plane) noexcept {
-  return bounded_dot({plane.normal, {}}, direction);
-}
-
 }  // namespace
-
-int side_of(const Vec3& point, const Plane& plane) noexcept {
-  return bounded_dot(exact_difference(point, plane.point), plane.normal).sign_or([&] {
-    return side_of_plane(point, plane.point, plane.normal);
-  });
-}
-
-int heading_of(const Vec3& direction, const Plane& plane) noexcept {
-  return approach(direction, plane).sign_or([&] { return sign_of_dot(plane.normal, direction); });
-}
-
-std::optional<Bounded> distance_to(const Plane& plane, const Ray& ray, int side) noexcept {
-  if (heading_of(ray.direction, plane) != -side) return std::nullopt;
-  const Bounded speed = approach(ray.direction, plane);
-  const Bounded way = bounded_dot(exact_difference(ray.origin, plane.point), plane.normal);
-  return not_negative(bounded_quotient({side * way.value, way.error}, {-side * speed.value, speed.error}));
-}
 
 MaterialIndex material_at(const Plane& plane, const Vec3& point) noexcept {
   if (!plane.checker) return plane.material;

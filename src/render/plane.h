@@ -1,24 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "render/bounded.h"
+#include "render/decide.h"
 #include "render/ray.h"
 #include "render/scene_data.h"
 
 namespace tessera::render {
 
+/// a.b of rounded vectors where little cancels, which is nearly always; nothing where much does.
+/// error:   a's components are off by at most u of themselves
+inline std::optional<Bounded> plain_dot(const Vec3& a, const Vec3& b) noexcept {
+  const Vec3 products{a.x * b.x, a.y * b.y, a.z * b.z};
+  const double value = products.x + products.y + products.z;
+  const double terms = std::abs(products.x) + std::abs(products.y) + std::abs(products.z);
+  if (!(terms <= 4 * std::abs(value))) return std::nullopt;
+  return Bounded{value, 8 * kUnitRoundoff * terms};
+}
+
+/// (point - plane.point).normal
+inline Bounded height_over(const Plane& plane, const Vec3& point) noexcept {
+  if (const auto plain = plain_dot(point - plane.point, plane.normal)) return *plain;
+  return bounded_dot(exact_difference(point, plane.point), plane.normal);
+}
+
+/// direction.normal
+inline Bounded approach(const Vec3& direction, const Plane& plane) noexcept {
+  if (const auto plain = plain_dot(direction, plane.normal)) return *plain;
+  return bounded_dot({direction, {}}, plane.normal);
+}
+
 /// -1 for a point behind a plane, 0 on it, +1 before it, as its normal points; exact.
-int side_of(const Vec3& point, const Plane& plane) noexcept;
+inline int side_of(const Vec3& point, const Plane& plane) noexcept {
+  return height_over(plane, point).sign_or([&] { return side_of_plane(point, plane.point, plane.normal); });
+}
 
 /// The sign of normal.direction: -1 for a direction that goes against the normal; exact.
-int heading_of(const Vec3& direction, const Plane& plane) noexcept;
+inline int heading_of(const Vec3& direction, const Plane& plane) noexcept {
+  return approach(direction, plane).sign_or([&] { return sign_of_dot(plane.normal, direction); });
+}
 
 /// Distance to a plane that the ray runs towards, or nullopt; that is decided exactly. The origin is on side `side` of
 /// the plane, whatever rounding says.
 /// units:   t in multiples of |direction|
-std::optional<Bounded> distance_to(const Plane& plane, const Ray& ray, int side) noexcept;
+inline std::optional<Bounded> distance_to(const Plane& plane, const Ray& ray, int side) noexcept {
+  const Bounded speed = approach(ray.direction, plane);
+  if (speed.sign_or([&] { return sign_of_dot(plane.normal, ray.direction); }) != -side) return std::nullopt;
+  const Bounded way = height_over(plane, ray.origin);
+  return not_negative(bounded_quotient({side * way.value, way.error}, {-side * speed.value, speed.error}));
+}
 
 /// The material at a point of a plane: its own, or on the odd cells of the board the checker's.
 /// The board's axes: u = e_i x N normalised for the axis i where |N_i| is smallest (the first of equals), v = N x u.

@@ -12,6 +12,7 @@ namespace tessera::render {
 
 Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(kernel) {
   if (kernel_ == Kernel::tree) bvh_ = build_bvh(data_.spheres);
+  for (const Plane& plane : data_.planes) plane_normals_.push_back(normalized(plane.normal));
   for (const Light& light : data_.lights) {
     const bool is_point = light.kind == LightKind::point;
     light_placements_.push_back(is_point ? placement_of(light.vector) : Placement{});

@@ -32,6 +32,7 @@ class Scene {
   bool is_sphere(SurfaceId id) const noexcept { return index_of(id) < sphere_count(); }
   const Sphere& sphere(SurfaceId id) const noexcept { return data_.spheres[index_of(id)]; }
   const Plane& plane(SurfaceId id) const noexcept { return data_.planes[index_of(id) - sphere_count()]; }
+  const Vec3& unit_normal(SurfaceId plane) const noexcept { return plane_normals_[index_of(plane) - sphere_count()]; }
   SurfaceId plane_id(std::size_t plane) const noexcept { return surface_id(sphere_count() + plane); }
 
   /// The surfaces that matter at a point light; none for a directional one.
@@ -58,6 +59,7 @@ class Scene {
   SceneData data_;
   Kernel kernel_;
   Bvh bvh_;
+  std::vector<Vec3> plane_normals_;  ///< of length 1
   std::vector<Placement> light_placements_;
   std::vector<std::int8_t> light_sides_;  ///< lights x planes
 };

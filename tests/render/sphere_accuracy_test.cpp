@@ -148,13 +148,15 @@ BOOST_AUTO_TEST_CASE(first_look_is_sure_only_of_what_is_so) {
     const Quad nearest = b / quad_dot(a.ray.direction, a.ray.direction);
     const bool hits = exact.discriminant >= 0 && b > 0;
     contradictions += look.surely_misses() && hits;
-    // Ends of the ray around the nearest point and around the entry.
+    // An end of the ray about the nearest point.
     const double nudge = 1 + (random.flip() ? 1 : -1) * random.over_decades(1e-18, 1);
     const double end = nudge * static_cast<double>(nearest);
-    contradictions += look.surely_meets_before(end, norm) && !(hits && nearest < end);
-    const double t = std::max(0.0, nudge * static_cast<double>(exact.near));
-    contradictions += look.surely_enters_after(t, norm, a.radius) && exact.near <= t;
-    sure += look.surely_misses() + look.surely_meets_before(end, norm) + look.surely_enters_after(t, norm, a.radius);
+    contradictions += look.surely_meets() && !hits;
+    contradictions += look.is_surely_before(end) && !(nearest < end);
+    sure += look.surely_misses() + look.surely_meets() + look.is_surely_before(end);
+    if (!look.surely_meets()) continue;
+    const Bounded t = look.entry(norm);
+    contradictions += error_of(t.value, exact.near) > t.error;
   }
   BOOST_TEST(contradictions == 0);
   BOOST_TEST(sure > 20 * kRays);
