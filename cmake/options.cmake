@@ -5,6 +5,7 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 
 option(TESSERA_BUILD_TESTS "Build the tests" ON)
+option(TESSERA_BUILD_BENCHMARKS "Build the benchmark programs" OFF)
 option(TESSERA_WARNINGS_AS_ERRORS "Fail on a compiler warning (CI does)" OFF)
 option(TESSERA_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 

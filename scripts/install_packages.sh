@@ -3,6 +3,7 @@
 # Installs what Tessera is built from on Debian 12, as root or through sudo. Does nothing where all of it is there.
 #   scripts/install_packages.sh          to build and render
 #   scripts/install_packages.sh test     to run the tests too
+#   scripts/install_packages.sh bench    to build the benchmark programs too
 set -euo pipefail
 
 packages=(
@@ -13,6 +14,9 @@ packages=(
   libtomlplusplus-dev                   # scene files
   libgmp-dev                            # integers of any size, for exact decisions
 )
+if [ "${1:-}" = bench ]; then
+  packages+=(libbenchmark-dev)          # benchmark programs
+fi
 if [ "${1:-}" = test ]; then
   packages+=(
     libboost-test-dev                   # unit tests

@@ -49,12 +49,12 @@ bool is_blocked(const Scene& scene, const Ray& to_light, const DirectionNorm& no
   bool blocked = false;
   scene.visit_along(to_light, end, [&](const LeafSphere& sphere) {
     const FirstLook look(to_light, norm, sphere.center, sphere.radius);
-    if (look.surely_misses()) return false;
+    if (look.surely_misses(norm)) return false;
     if (sphere.id == to_light.from || region.is_inside(sphere.id)) return false;
     // The light is on this sphere, on the side that the ray comes from: that is the end point, which is open.
     const bool touches_light = holds(placement.touching, sphere.id);
     if (touches_light && side_of_plane(light.vector, sphere.center, to_light.direction) <= 0) return false;
-    if (!touches_light && look.surely_meets() && look.is_surely_before(end)) return blocked = true;
+    if (!touches_light && look.surely_meets(norm) && look.is_surely_before(end, norm)) return blocked = true;
     const Passage passage = passage_of(to_light, norm, sphere.center, sphere.radius);
     const bool has_end = is_point && !touches_light;
     blocked = line_meets(passage, to_light, sphere.center, sphere.radius) &&
@@ -68,13 +68,13 @@ bool is_blocked(const Scene& scene, const Ray& to_light, const DirectionNorm& no
 }  // namespace
 
 std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region& region) noexcept {
-  const DirectionNorm norm = norm_of(ray.direction);
-  if (!is_squarable(norm.squared)) {
+  if (!is_squarable(dot(ray.direction, ray.direction))) {
     int k = 0;
     auto hit = nearest_hit(scene, along(ray, rescaled(ray.direction, k)), region);
     if (hit) hit->t = std::ldexp(hit->t, k);
     return hit;
   }
+  const DirectionNorm norm = norm_of(ray.direction);
   Candidate best;
   double latest = std::numeric_limits<double>::infinity();  // no hit after this can be the first
   const auto take = [&](const Candidate& candidate) {
@@ -97,13 +97,13 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
   double favourite_earliest = 0;
   scene.visit_along(ray, latest, [&](const LeafSphere& sphere) {
     const FirstLook look(ray, norm, sphere.center, sphere.radius);
-    if (look.surely_misses()) return false;
+    if (look.surely_misses(norm)) return false;
     if (sphere.id == ray.from || region.is_inside(sphere.id)) return false;
-    if (!look.surely_meets()) {
+    if (!look.surely_meets(norm)) {
       settle(sphere);
       return false;
     }
-    const Bounded t = look.entry(norm);
+    const Bounded t = look.entry(norm, sphere.radius);
     if (t.value - t.error > latest) return false;
     if (favourite && t.value + t.error >= favourite_earliest) {
       settle(*favourite);
@@ -120,7 +120,7 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
   for (std::size_t i = 0; i != scene.data().planes.size(); ++i) {
     const SurfaceId id = scene.plane_id(i);
     if (id == ray.from) continue;
-    if (const auto t = distance_to(scene.data().planes[i], ray, region.side_of(i))) {
+    if (const auto t = distance_to(scene.data().planes[i], ray, region.side_of(i), latest)) {
       take({id, Meeting::plane, *t});
     }
   }
@@ -152,8 +152,9 @@ bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light_inde
 
   const Light& light = scene.data().lights[light_index];
   const double end = light.kind == LightKind::point ? 1 : std::numeric_limits<double>::infinity();
-  const DirectionNorm norm = norm_of(to_light.direction);
-  if (is_squarable(norm.squared)) return is_blocked(scene, to_light, norm, end, light_index, region);
+  if (is_squarable(dot(to_light.direction, to_light.direction))) {
+    return is_blocked(scene, to_light, norm_of(to_light.direction), end, light_index, region);
+  }
   int k = 0;
   const Ray longer = along(to_light, rescaled(to_light.direction, k));
   return is_blocked(scene, longer, norm_of(longer.direction), std::ldexp(end, -k), light_index, region);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "render/bounded.h"
@@ -44,12 +45,14 @@ inline int heading_of(const Vec3& direction, const Plane& plane) noexcept {
 }
 
 /// Distance to a plane that the ray runs towards, or nullopt; that is decided exactly. The origin is on side `side` of
-/// the plane, whatever rounding says.
+/// the plane, whatever rounding says. Nullopt too for a plane that is surely met after `latest`.
 /// units:   t in multiples of |direction|
-inline std::optional<Bounded> distance_to(const Plane& plane, const Ray& ray, int side) noexcept {
+inline std::optional<Bounded> distance_to(const Plane& plane, const Ray& ray, int side,
+                                          double latest = std::numeric_limits<double>::infinity()) noexcept {
   const Bounded speed = approach(ray.direction, plane);
   if (speed.sign_or([&] { return sign_of_dot(plane.normal, ray.direction); }) != -side) return std::nullopt;
   const Bounded way = height_over(plane, ray.origin);
+  if (side * way.value - way.error > latest * (std::abs(speed.value) + speed.error)) return std::nullopt;
   return not_negative(bounded_quotient({side * way.value, way.error}, {-side * speed.value, speed.error}));
 }
 

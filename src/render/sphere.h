@@ -23,16 +23,18 @@ namespace tessera::render {
 
 /// A direction with what every sphere test needs of it.
 struct DirectionNorm {
-  double squared = 0;  ///< a = d.d
-  double length = 0;   ///< sqrt(a)
-  double inverse_squared = 0;
+  double squared = 0;          ///< a = d.d
+  double length = 0;           ///< sqrt(a)
+  double inverse_squared = 0;  ///< these two for first looks only
   double inverse_length = 0;
 };
 
+/// requires: is_squarable(direction.direction)
 inline DirectionNorm norm_of(const Vec3& direction) noexcept {
   const double a = dot(direction, direction);
   const double length = std::sqrt(a);
-  return {a, length, 1 / a, 1 / length};
+  const double inverse = 1 / a;
+  return {a, length, inverse, inverse * length};
 }
 
 /// -1 for a point inside a sphere, 0 on it, +1 outside; exact.
@@ -45,7 +47,8 @@ inline int side_of(const Vec3& point, const Vec3& center, double radius) noexcep
 /// A first look at a sphere from a ray outside of it, in plain double precision: by the foot of the perpendicular
 /// from the centre. What it calls sure is sure; where it is not, the exact test below decides. It spares nearly all
 /// spheres that test.
-/// error:   f, the foot's distance and the perpendicular p are off by at most 8u |f|, and so p^2 by the slack below
+/// error:   f, the foot's distance and the perpendicular p are off by at most 8u |f|; p^2 - r^2 thus by less than
+///          slack = 64u f^2, for an origin outside has |f| >= r up to rounding
 /// source:  the formulation of Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7
 class FirstLook {
  public:
@@ -53,37 +56,40 @@ class FirstLook {
     const Vec3 f = center - ray.origin;
     foot_ = dot(f, ray.direction) * norm.inverse_squared;
     const Vec3 p = f - foot_ * ray.direction;
-    const double scale = dot(f, f);
     excess_ = dot(p, p) - radius * radius;
-    slack_ = 32 * kUnitRoundoff * (scale + radius * radius);
-    foot_slack_squared_ = 64 * kUnitRoundoff * kUnitRoundoff * scale * norm.inverse_squared;
+    slack_ = 64 * kUnitRoundoff * dot(f, f);
   }
 
   /// The line passes the sphere, or the sphere lies behind.
-  bool surely_misses() const noexcept { return excess_ > slack_ || (foot_ < 0 && is_clear(foot_)); }
+  bool surely_misses(const DirectionNorm& norm) const noexcept {
+    return excess_ > slack_ || (foot_ < 0 && is_clear(foot_, norm));
+  }
   /// The ray enters the sphere.
-  bool surely_meets() const noexcept { return excess_ < -slack_ && foot_ > 0 && is_clear(foot_); }
+  bool surely_meets(const DirectionNorm& norm) const noexcept {
+    return excess_ < -slack_ && foot_ > 0 && is_clear(foot_, norm);
+  }
   /// The point of the line nearest to the centre comes before `end` times the direction.
-  bool is_surely_before(double end) const noexcept { return foot_ < end && is_clear(end - foot_); }
+  bool is_surely_before(double end, const DirectionNorm& norm) const noexcept {
+    return foot_ < end && is_clear(end - foot_, norm);
+  }
 
   /// The distance to a sphere that is surely met.
   /// units:   t in multiples of |d|
-  Bounded entry(const DirectionNorm& norm) const noexcept {
-    const double half_chord = std::sqrt(-excess_);
-    const double back = half_chord * norm.inverse_length;
-    const double t = foot_ - back;
-    // The rest of the error is that of the half chord: of its square, divided by itself.
-    return {t, 16 * kUnitRoundoff * (foot_ + back) + slack_ / half_chord * norm.inverse_length};
+  /// error:   the half chord is off by at most sqrt(slack) <= 2^-23.5 (foot |d| + r), which outweighs the roundings
+  Bounded entry(const DirectionNorm& norm, double radius) const noexcept {
+    const double t = foot_ - std::sqrt(-excess_) * norm.inverse_length;
+    return {t, 0x1p-23 * (foot_ + radius * norm.inverse_length)};
   }
 
  private:
   /// Whether a distance from the foot is larger than the error of the foot.
-  bool is_clear(double gap) const noexcept { return gap * gap > foot_slack_squared_; }
+  bool is_clear(double gap, const DirectionNorm& norm) const noexcept {
+    return gap * gap * norm.squared > 2 * kUnitRoundoff * slack_;
+  }
 
   double foot_;    ///< t of the point of the line nearest to the centre
   double excess_;  ///< p^2 - r^2
   double slack_;
-  double foot_slack_squared_;
 };
 
 /// How a line passes a sphere; both roots and both normals follow from it.

@@ -147,15 +147,15 @@ BOOST_AUTO_TEST_CASE(first_look_is_sure_only_of_what_is_so) {
     const Quad b = quad_dot(QuadVec(a.center) - QuadVec(a.ray.origin), a.ray.direction);
     const Quad nearest = b / quad_dot(a.ray.direction, a.ray.direction);
     const bool hits = exact.discriminant >= 0 && b > 0;
-    contradictions += look.surely_misses() && hits;
+    contradictions += look.surely_misses(norm) && hits;
     // An end of the ray about the nearest point.
     const double nudge = 1 + (random.flip() ? 1 : -1) * random.over_decades(1e-18, 1);
     const double end = nudge * static_cast<double>(nearest);
-    contradictions += look.surely_meets() && !hits;
-    contradictions += look.is_surely_before(end) && !(nearest < end);
-    sure += look.surely_misses() + look.surely_meets() + look.is_surely_before(end);
-    if (!look.surely_meets()) continue;
-    const Bounded t = look.entry(norm);
+    contradictions += look.surely_meets(norm) && !hits;
+    contradictions += look.is_surely_before(end, norm) && !(nearest < end);
+    sure += look.surely_misses(norm) + look.surely_meets(norm) + look.is_surely_before(end, norm);
+    if (!look.surely_meets(norm)) continue;
+    const Bounded t = look.entry(norm, a.radius);
     contradictions += error_of(t.value, exact.near) > t.error;
   }
   BOOST_TEST(contradictions == 0);
