@@ -72,6 +72,15 @@ struct HitCheck {
     }
   }
 
+  /// All rays of a square picture.
+  void trace_picture(std::uint32_t side) {
+    const CameraRays rays(*scene.data().camera, side, side);
+    for (std::uint32_t i = 0; i != side * side; ++i) {
+      const Ray ray = rays.through(i % side + 0.5, i / side + 0.5);
+      trace(ray.origin, ray.direction);
+    }
+  }
+
   const Scene& scene;
   std::size_t tried = 0;
   std::size_t hits = 0;
