@@ -16,6 +16,13 @@ const Material& material_of(const Scene& scene, const Hit& hit) noexcept {
   return scene.data().materials[static_cast<std::size_t>(index)];
 }
 
+/// False for a light that is in the plane hit or behind it, which the rounded point of the hit may not tell.
+bool is_on_path_side(const Scene& scene, std::size_t light, SurfaceId hit, const Region& region) noexcept {
+  if (scene.is_sphere(hit)) return true;
+  const std::size_t plane = index_of(hit) - scene.sphere_count();
+  return scene.light_side(light, plane) == region.side_of(plane);
+}
+
 /// Ambient light and every light that reaches the hit.
 /// shapes:  normal is unit and faces against `incoming`
 Rgb local_radiance(const Scene& scene, const Hit& hit, const Material& material, const Vec3& normal,
@@ -28,7 +35,7 @@ Rgb local_radiance(const Scene& scene, const Hit& hit, const Material& material,
   for (std::size_t i = 0; i != data.lights.size(); ++i) {
     const Light& light = data.lights[i];
     const Vec3 reach = light.kind == LightKind::point ? light.vector - hit.point : -light.vector;
-    if (!(dot(normal, reach) > 0)) continue;
+    if (!(dot(normal, reach) > 0) || !is_on_path_side(scene, i, hit.surface, region)) continue;
     ++counts.shadow;
     if (is_occluded(scene, {hit.point, reach, hit.surface, hit.normal}, i, region)) continue;
     sum += reflected_light(material, light.color, shade, normal, normalized(reach), to_viewer);

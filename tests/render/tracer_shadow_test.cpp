@@ -213,4 +213,22 @@ BOOST_AUTO_TEST_CASE(no_light_leaks_through_the_contact_of_two_spheres) {
   }
 }
 
+// N.L = 0 for every point of the plane, whatever the rounded hit points say: no light, not even a highlight.
+BOOST_AUTO_TEST_CASE(light_in_a_plane_does_not_light_it) {
+  Random random(73);
+  int lit = 0;
+  for (int i = 0; i != 500; ++i) {
+    SceneData data;
+    const Vec3 normal{static_cast<double>(1 + random.below(5)), static_cast<double>(random.below(5)), 3};
+    add_plane(data, {}, normal, {.color = kWhite, .ambient = 0.25, .diffuse = 1, .specular = 1, .shininess = 0});
+    // Both at right angles to the normal, exactly: the numbers are small and whole.
+    add_point_light(data, {normal.y, -normal.x, 0});
+    add_directional_light(data, {3, 0, -normal.x});
+    const Vec3 eye = 4 * random.direction();
+    data.environment.background = {0.25, 0.25, 0.25};  // what misses the plane is unlit too
+    lit += !(seen_from(data, eye, random.in_box(2) - eye) == Rgb{0.25, 0.25, 0.25});
+  }
+  BOOST_TEST(lit == 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
