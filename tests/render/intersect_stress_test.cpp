@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
-#include "render/quad_tracer.h"
+#include "render/quad_oracle.h"
+#include "render/reference/quad_tracer.h"
 #include "render/scene_fixture.h"
 #include "render/scene_kinds.h"
 

@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "render/plane.h"
-#include "render/quad.h"
+#include "render/quad_oracle.h"
 #include "render/scene_fixture.h"
 #include "render/scene_kinds.h"
 

@@ -4,7 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "render/quad_tracer.h"
+#include "render/quad_oracle.h"
+#include "render/reference/quad_tracer.h"
 #include "render/scene_fixture.h"
 #include "render/scene_kinds.h"
 

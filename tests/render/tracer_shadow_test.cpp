@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "render/quad.h"
+#include "render/quad_oracle.h"
 #include "render/random.h"
 #include "render/scene_fixture.h"
 

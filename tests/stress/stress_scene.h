@@ -7,8 +7,9 @@
 
 #include "render/camera.h"
 #include "render/exact.h"
-#include "render/quad_tracer.h"
+#include "render/quad_oracle.h"
 #include "render/random.h"
+#include "render/reference/quad_tracer.h"
 #include "render/scale.h"
 #include "render/scene_fixture.h"
 #include "stress/verdict.h"

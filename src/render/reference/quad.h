@@ -7,7 +7,7 @@
 
 // Quad precision (113 bits) as an oracle for double: products of two doubles are exact in it. Operators only, so that
 // every compiler here can build it.
-namespace tessera::render::test {
+namespace tessera::render::reference {
 
 __extension__ typedef __float128 Quad;
 
@@ -56,14 +56,6 @@ inline QuadVec quad_unit(const QuadVec& a) {
   return (1 / quad_length(a)) * a;
 }
 
-/// |a - exact|, rounded.
-inline double error_of(double a, Quad exact) {
-  return static_cast<double>(magnitude(a - exact));
-}
-inline double error_of(const Vec3& a, const QuadVec& exact) {
-  return static_cast<double>(quad_length(QuadVec(a) - exact));
-}
-
 /// Both roots of a line and a sphere by the textbook's quadratic, which 113 bits can afford.
 struct QuadRoots {
   Quad discriminant;  ///< r^2 d^2 - |f x d|^2
@@ -82,4 +74,4 @@ struct QuadRoots {
   }
 };
 
-}  // namespace tessera::render::test
+}  // namespace tessera::render::reference

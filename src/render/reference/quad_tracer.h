@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "render/quad.h"
 #include "render/ray.h"
+#include "render/reference/quad.h"
 #include "render/scene_data.h"
 
 // The rendering model once more, in quad precision, by brute force, as a recursion: an oracle that
 // shares no code with the renderer.
-namespace tessera::render::test {
+namespace tessera::render::reference {
 
 struct QuadHit {
   std::size_t surface;  ///< spheres first, then planes
@@ -52,4 +52,4 @@ class QuadTracer {
   std::vector<int> side_;     ///< per plane
 };
 
-}  // namespace tessera::render::test
+}  // namespace tessera::render::reference

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/quad_tracer.h"
+#include "render/reference/quad_tracer.h"
 
 #include <cmath>
 
-namespace tessera::render::test {
+namespace tessera::render::reference {
 namespace {
 
 int sign(Quad a) {
@@ -146,4 +146,4 @@ const Material& QuadTracer::material_of(const QuadHit& hit) const {
   return scene_.materials[static_cast<std::size_t>(index)];
 }
 
-}  // namespace tessera::render::test
+}  // namespace tessera::render::reference
