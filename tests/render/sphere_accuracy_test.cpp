@@ -48,7 +48,7 @@ struct Errors {
   }
 };
 
-QuadRoots roots_of(const Approach& a) {
+QuadLine line_of(const Approach& a) {
   return {a.ray.origin, a.ray.direction, a.center, a.radius};
 }
 
@@ -64,10 +64,10 @@ BOOST_AUTO_TEST_CASE(entry_and_its_normal_keep_their_digits_over_distance) {
     for (int i = 0; i != kRays; ++i) {
       const Approach a(random, distance, random.uniform(0, 0.88));
       const auto crossing = entry_into(a.ray, norm_of(a.ray.direction), a.center, a.radius);
-      if (distance > 1e7 && roots_of(a).discriminant < 0) continue;
+      if (distance > 1e7 && line_of(a).discriminant < 0) continue;
       BOOST_REQUIRE(crossing.has_value());
       if (crossing->t.value > 0.01 * distance * a.radius / length(a.ray.direction))
-        errors.include(a, *crossing, roots_of(a).near);
+        errors.include(a, *crossing, line_of(a).near());
     }
     BOOST_TEST_MESSAGE("entry at D/r " << distance << ": t " << errors.t << " u, normal " << errors.normal);
     BOOST_TEST(errors.t <= 8);
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(exit_and_its_normal_keep_their_digits) {
     Approach turned = a;
     turned.ray.direction = random.over_decades(0.1, 10) * random.direction();
     const Crossing crossing = exit_from(turned.ray, norm_of(turned.ray.direction), a.center, a.radius);
-    errors.include(turned, crossing, roots_of(turned).far);
+    errors.include(turned, crossing, line_of(turned).far());
   }
   BOOST_TEST_MESSAGE("exit: t " << errors.t << " u, normal " << errors.normal);
   BOOST_TEST(errors.t <= 8);
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(grazing_chord_is_as_long_as_the_radius_allows_to_know) {
       const DirectionNorm norm = norm_of(a.ray.direction);
       const Passage passage = passage_of(a.ray, norm, a.center, a.radius);
       const Bounded s = half_chord(passage);
-      const QuadRoots exact = roots_of(a);
+      const QuadLine exact = line_of(a);
       out_of_bound += error_of(passage.discriminant.value, exact.discriminant) > passage.discriminant.error;
       if (!(exact.discriminant > 0) || !(passage.discriminant.value > 0)) continue;
       const Quad h = square_root(exact.discriminant);
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(hit_or_miss_is_right_to_the_rim) {
   for (int i = 0; i != 20 * kRays; ++i) {
     const double passing = 1 + (random.flip() ? 1 : -1) * random.over_decades(u, 1);
     const Approach a(random, random.over_decades(3, 1e9), passing);
-    const QuadRoots exact = roots_of(a);
+    const QuadLine exact = line_of(a);
     const bool hit = entry_into(a.ray, norm_of(a.ray.direction), a.center, a.radius).has_value();
     wrong += hit != (exact.discriminant > 0);
   }
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(first_look_is_sure_only_of_what_is_so) {
     if (i % 5 == 0) a.ray.direction = random.perpendicular_to(a.center - a.ray.origin);
     const DirectionNorm norm = norm_of(a.ray.direction);
     const FirstLook look(a.ray, norm, a.center, a.radius);
-    const QuadRoots exact = roots_of(a);
+    const QuadLine exact = line_of(a);
     const Quad b = quad_dot(QuadVec(a.center) - QuadVec(a.ray.origin), a.ray.direction);
     const Quad nearest = b / quad_dot(a.ray.direction, a.ray.direction);
     const bool hits = exact.discriminant >= 0 && b > 0;
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(first_look_is_sure_only_of_what_is_so) {
     sure += look.surely_misses(norm) + look.surely_meets(norm) + look.is_surely_before(end, norm);
     if (!look.surely_meets(norm)) continue;
     const Bounded t = look.entry(norm, a.radius);
-    contradictions += error_of(t.value, exact.near) > t.error;
+    contradictions += error_of(t.value, exact.near()) > t.error;
   }
   BOOST_TEST(contradictions == 0);
   BOOST_TEST(sure > 20 * kRays);

@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(case_10_grazing_half_chords) {
       const Ray ray{.origin = origin, .direction = direction};
       const DirectionNorm norm = norm_of(direction);
       const double s = half_chord(passage_of(ray, norm, center, radius)).value;
-      const QuadRoots exact(origin, direction, center, radius);
+      const QuadLine exact(origin, direction, center, radius);
       if (!(exact.discriminant > 0) || !(s > 0)) continue;
       const Quad h = square_root(exact.discriminant);
       const double ratio = radius * norm.length / static_cast<double>(h);

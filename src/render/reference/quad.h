@@ -5,8 +5,8 @@
 
 #include "render/vec3.h"
 
-// Quad precision (113 bits) as an oracle for double: products of two doubles are exact in it. Operators only, so that
-// every compiler here can build it.
+// Quad precision (113 bits) as an oracle for double: products of two doubles are exact in it. Operators only, for not
+// every compiler has a library for it.
 namespace tessera::render::reference {
 
 __extension__ typedef __float128 Quad;
@@ -15,10 +15,11 @@ constexpr Quad magnitude(Quad a) {
   return a < 0 ? -a : a;
 }
 
-/// Three Newton steps from the double root.
-/// shapes:  a >= 0 within the range of double
+/// Three Newton steps from the double root; 0 for what is not positive.
 inline Quad square_root(Quad a) {
   if (!(a > 0)) return 0;
+  if (a < 0x1p-1000) return square_root(a * 0x1p1000) * 0x1p-500;
+  if (a > 0x1p1000) return square_root(a * 0x1p-1000) * 0x1p500;
   Quad root = std::sqrt(static_cast<double>(a));
   for (int step = 0; step != 3; ++step) root = (root + a / root) / 2;
   return root;
@@ -56,22 +57,23 @@ inline QuadVec quad_unit(const QuadVec& a) {
   return (1 / quad_length(a)) * a;
 }
 
-/// Both roots of a line and a sphere by the textbook's quadratic, which 113 bits can afford.
-struct QuadRoots {
-  Quad discriminant;  ///< r^2 d^2 - |f x d|^2
-  Quad near;
-  Quad far;
+/// How a line meets a sphere, by the textbook's quadratic, which 113 bits can afford.
+struct QuadLine {
+  Quad a;             ///< d.d
+  Quad b;             ///< f.d
+  Quad discriminant;  ///< r^2 d.d - |f x d|^2
 
-  QuadRoots(const QuadVec& origin, const QuadVec& direction, const QuadVec& center, Quad radius) {
+  QuadLine(const QuadVec& origin, const QuadVec& direction, const QuadVec& center, Quad radius) {
     const QuadVec f = center - origin;
     const QuadVec w = quad_cross(f, direction);
-    const Quad a = quad_dot(direction, direction);
-    const Quad b = quad_dot(f, direction);
+    a = quad_dot(direction, direction);
+    b = quad_dot(f, direction);
     discriminant = radius * radius * a - quad_dot(w, w);
-    const Quad s = square_root(discriminant);
-    near = (b - s) / a;
-    far = (b + s) / a;
   }
+
+  /// The two crossings; for a line that misses, its point nearest to the centre.
+  Quad near() const { return (b - square_root(discriminant)) / a; }
+  Quad far() const { return (b + square_root(discriminant)) / a; }
 };
 
 }  // namespace tessera::render::reference

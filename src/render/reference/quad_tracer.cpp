@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/reference/quad_tracer.h"
 
-#include <cmath>
+#include <limits>
+
+#include "render/reference/quad_power.h"
 
 namespace tessera::render::reference {
 namespace {
@@ -18,23 +20,27 @@ QuadVec channelwise(const QuadVec& a, const QuadVec& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
+/// The largest whole number not above a, which keeps its quad precision where no integer type is wide enough.
 Quad floor_of(Quad a) {
-  const Quad whole = static_cast<Quad>(static_cast<std::int64_t>(a));
+  constexpr Quad kAllWhole = 0x1p112;  // from here on there is no fraction
+  if (magnitude(a) >= kAllWhole) return a;
+  // Adding and taking away what leaves no room for a fraction rounds to a whole number.
+  const Quad whole = a < 0 ? (a - kAllWhole) + kAllWhole : (a + kAllWhole) - kAllWhole;
   return whole > a ? whole - 1 : whole;
 }
 
 }  // namespace
 
 QuadTracer::QuadTracer(const SceneData& scene, const Vec3& eye, const Vec3& direction)
-    : scene_(scene), eye_(eye), direction_(direction) {
+    : scene_(scene), camera_ray_{eye, direction, kNone, {}} {
   for (const Sphere& sphere : scene.spheres) {
-    const QuadVec f = QuadVec(sphere.center) - eye_;
+    const QuadVec f = QuadVec(sphere.center) - camera_ray_.origin;
     const int side = sign(quad_dot(f, f) - Quad(sphere.radius) * sphere.radius);
-    inside_.push_back(sphere.radius > 0 && (side < 0 || (side == 0 && quad_dot(f, direction_) > 0)));
+    inside_.push_back(sphere.radius > 0 && (side < 0 || (side == 0 && quad_dot(f, camera_ray_.direction) > 0)));
   }
   for (const Plane& plane : scene.planes) {
-    const int side = sign(quad_dot(plane.normal, eye_ - QuadVec(plane.point)));
-    side_.push_back(side != 0 ? side : sign(quad_dot(plane.normal, direction_)));
+    const int side = sign(quad_dot(plane.normal, camera_ray_.origin - QuadVec(plane.point)));
+    side_.push_back(side != 0 ? side : sign(quad_dot(plane.normal, camera_ray_.direction)));
   }
 }
 
@@ -46,11 +52,14 @@ std::optional<Quad> QuadTracer::distance_to(std::size_t surface, const QuadRay& 
       return 2 * Quad(sphere.radius) * quad_dot(ray.from_normal, ray.direction) /
              quad_dot(ray.direction, ray.direction);
     }
-    const QuadRoots roots(ray.origin, ray.direction, sphere.center, sphere.radius);
-    if (inside_[surface]) return roots.far > 0 ? roots.far : 0;
-    const bool approaches = quad_dot(QuadVec(sphere.center) - ray.origin, ray.direction) > 0;
-    if (roots.discriminant < 0 || !approaches) return std::nullopt;
-    return roots.near > 0 ? roots.near : 0;
+    const QuadLine line(ray.origin, ray.direction, sphere.center, sphere.radius);
+    if (inside_[surface]) {
+      const Quad far = line.far();
+      return far > 0 ? far : 0;
+    }
+    if (line.discriminant < 0 || !(line.b > 0)) return std::nullopt;
+    const Quad near = line.near();
+    return near > 0 ? near : 0;
   }
   const std::size_t index = surface - scene_.spheres.size();
   const Plane& plane = scene_.planes[index];
@@ -86,40 +95,48 @@ bool QuadTracer::is_blocked(const QuadRay& ray, const Light& light) const {
   return false;
 }
 
-QuadVec QuadTracer::local_light(const QuadHit& hit, const QuadVec& to_viewer) const {
-  const Material& material = material_of(hit);
+QuadVec QuadTracer::local_light(const QuadHit& hit, const Material& material, const QuadVec& to_viewer) const {
   QuadVec sum = Quad(material.ambient) * channelwise(color(scene_.environment.ambient), color(material.color));
-  for (const Light& light : scene_.lights) {
-    const bool is_point = light.kind == LightKind::point;
-    const QuadVec to_light = is_point ? QuadVec(light.vector) - hit.point : Quad(-1) * QuadVec(light.vector);
-    const Quad n_l = quad_dot(hit.normal, to_light);
-    if (!(n_l > 0) || is_blocked({hit.point, to_light, hit.surface, hit.normal}, light)) continue;
-    const QuadVec l = quad_unit(to_light);
-    const Quad cosine = n_l / quad_length(to_light);
-    QuadVec term = Quad(material.diffuse) * cosine * color(material.color);
-    const Quad phong = quad_dot(2 * cosine * hit.normal - l, to_viewer);
-    const Quad blinn = quad_dot(hit.normal, quad_unit(l + to_viewer));
-    const Quad base = scene_.image.shade == Shade::phong ? phong : blinn;
-    if (base > 0) {
-      const Quad highlight = Quad(material.specular) * std::pow(static_cast<double>(base), material.shininess);
-      term = term + QuadVec(highlight, highlight, highlight);
-    }
-    sum = sum + channelwise(color(light.color), term);
-  }
+  for (const Light& light : scene_.lights) sum = sum + light_from(light, hit, material, to_viewer);
   return sum;
 }
 
-QuadVec QuadTracer::radiance_along(const QuadRay& ray, std::uint32_t bounces_left) const {
-  const std::optional<QuadHit> hit = nearest(ray);
-  if (!hit) return color(scene_.environment.background);
-  const QuadVec local = local_light(*hit, quad_unit(Quad(-1) * ray.direction));
-  const Quad k = material_of(*hit).reflection;
-  if (!(k > 0)) return local;
-  const QuadVec mirrored = ray.direction - 2 * quad_dot(ray.direction, hit->normal) * hit->normal;
-  const QuadVec seen = bounces_left == 0
-                           ? color(scene_.environment.background)
-                           : radiance_along({hit->point, mirrored, hit->surface, hit->normal}, bounces_left - 1);
-  return (1 - k) * local + k * seen;
+QuadVec QuadTracer::light_from(const Light& light, const QuadHit& hit, const Material& material,
+                               const QuadVec& to_viewer) const {
+  const bool is_point = light.kind == LightKind::point;
+  const QuadVec to_light = is_point ? QuadVec(light.vector) - hit.point : Quad(-1) * QuadVec(light.vector);
+  const Quad n_l = quad_dot(hit.normal, to_light);
+  if (!(n_l > 0) || is_blocked({hit.point, to_light, hit.surface, hit.normal}, light)) return {};
+  const QuadVec l = quad_unit(to_light);
+  const Quad cosine = n_l / quad_length(to_light);
+  QuadVec term = Quad(material.diffuse) * cosine * color(material.color);
+  const Quad base = scene_.image.shade == Shade::phong ? quad_dot(2 * cosine * hit.normal - l, to_viewer)
+                                                       : quad_dot(hit.normal, quad_unit(l + to_viewer));
+  if (base > 0) {
+    const Quad highlight = Quad(material.specular) * quad_power(base < 1 ? base : 1, material.shininess);
+    term = term + QuadVec(highlight, highlight, highlight);
+  }
+  return channelwise(color(light.color), term);
+}
+
+QuadVec QuadTracer::radiance() const {
+  QuadVec radiance;
+  Quad weight = 1;
+  QuadRay ray = camera_ray_;
+  for (std::uint32_t bounce = 0;; ++bounce) {
+    const std::optional<QuadHit> hit = nearest(ray);
+    if (!hit) break;
+    const Material& material = material_of(*hit);
+    const Quad k = material.reflection;
+    radiance = radiance + weight * (1 - k) * local_light(*hit, material, quad_unit(Quad(-1) * ray.direction));
+    weight *= k;
+    // No double can tell what is left from nothing.
+    if (weight < std::numeric_limits<double>::min()) return radiance;
+    if (bounce == scene_.image.max_bounces) break;
+    const QuadVec mirrored = ray.direction - 2 * quad_dot(ray.direction, hit->normal) * hit->normal;
+    ray = {hit->point, mirrored, hit->surface, hit->normal};
+  }
+  return radiance + weight * color(scene_.environment.background);
 }
 
 const Material& QuadTracer::material_of(const QuadHit& hit) const {
@@ -128,22 +145,23 @@ const Material& QuadTracer::material_of(const QuadHit& hit) const {
     index = scene_.spheres[hit.surface].material;
   } else {
     const Plane& plane = scene_.planes[hit.surface - scene_.spheres.size()];
-    index = plane.material;
-    if (plane.checker) {
-      const QuadVec n = quad_unit(plane.normal);
-      const Quad ax = magnitude(n.x);
-      const Quad ay = magnitude(n.y);
-      const Quad az = magnitude(n.z);
-      const QuadVec e = ax <= ay && ax <= az ? QuadVec(1, 0, 0) : ay <= az ? QuadVec(0, 1, 0) : QuadVec(0, 0, 1);
-      const QuadVec u = quad_unit(quad_cross(e, n));
-      const QuadVec from_origin = hit.point - QuadVec(plane.point);
-      const Quad size = plane.checker->size;
-      const Quad cell =
-          floor_of(quad_dot(from_origin, u) / size) + floor_of(quad_dot(from_origin, quad_cross(n, u)) / size);
-      if (cell != 2 * floor_of(cell / 2)) index = plane.checker->material;
-    }
+    index = plane.checker && is_odd_cell(plane, hit.point) ? plane.checker->material : plane.material;
   }
   return scene_.materials[static_cast<std::size_t>(index)];
+}
+
+bool QuadTracer::is_odd_cell(const Plane& plane, const QuadVec& point) const {
+  const QuadVec n = quad_unit(plane.normal);
+  const Quad ax = magnitude(plane.normal.x);
+  const Quad ay = magnitude(plane.normal.y);
+  const Quad az = magnitude(plane.normal.z);
+  const QuadVec e = ax <= ay && ax <= az ? QuadVec(1, 0, 0) : ay <= az ? QuadVec(0, 1, 0) : QuadVec(0, 0, 1);
+  const QuadVec u = quad_unit(quad_cross(e, n));
+  const QuadVec from_origin = point - QuadVec(plane.point);
+  const Quad size = plane.checker->size;
+  const Quad cell =
+      floor_of(quad_dot(from_origin, u) / size) + floor_of(quad_dot(from_origin, quad_cross(n, u)) / size);
+  return cell != 2 * floor_of(cell / 2);
 }
 
 }  // namespace tessera::render::reference
