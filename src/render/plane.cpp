@@ -14,16 +14,21 @@ Vec3 least_aligned_axis(const Vec3& n) noexcept {
 
 }  // namespace
 
-MaterialIndex material_at(const Plane& plane, const Vec3& point) noexcept {
-  if (!plane.checker) return plane.material;
+// The axis is chosen by the normal as given: normalising may make equal what is not.
+CheckerAxes::CheckerAxes(const Plane& plane) noexcept {
   const Vec3 normal = normalized(plane.normal);
-  const Vec3 u = normalized(cross(least_aligned_axis(normal), normal));
-  const Vec3 v = cross(normal, u);
+  u = normalized(cross(least_aligned_axis(plane.normal), normal));
+  v = cross(normal, u);
+}
+
+Cell cell_at(const Plane& plane, const Vec3& point) noexcept {
+  if (!plane.checker) return Cell::even;
+  const CheckerAxes axes(plane);
   const Vec3 offset = point - plane.point;
   const double size = plane.checker->size;
-  const double cell = std::floor(dot(offset, u) / size) + std::floor(dot(offset, v) / size);
+  const double cell = std::floor(dot(offset, axes.u) / size) + std::floor(dot(offset, axes.v) / size);
   // fmod, not a cast: far out the cell number leaves the range of every integer type.
-  return std::fmod(cell, 2) == 0 ? plane.material : plane.checker->material;
+  return std::fmod(cell, 2) == 0 ? Cell::even : Cell::odd;
 }
 
 }  // namespace tessera::render

@@ -56,8 +56,20 @@ inline std::optional<Bounded> distance_to(const Plane& plane, const Ray& ray, in
   return not_negative(bounded_quotient({side * way.value, way.error}, {-side * speed.value, speed.error}));
 }
 
-/// The material at a point of a plane: its own, or on the odd cells of the board the checker's.
-/// The board's axes: u = e_i x N normalised for the axis i where |N_i| is smallest (the first of equals), v = N x u.
-MaterialIndex material_at(const Plane& plane, const Vec3& point) noexcept;
+/// The board on a plane: its unit axes, and the unit normal.
+struct CheckerAxes {
+  Vec3 u;  ///< e_i x N normalised for the axis i where |N_i| is smallest, the first of equals
+  Vec3 v;  ///< N x u
+
+  explicit CheckerAxes(const Plane& plane) noexcept;
+};
+
+/// The cell at a point of a plane: floor(offset.u / size) + floor(offset.v / size), even or odd.
+Cell cell_at(const Plane& plane, const Vec3& point) noexcept;
+
+/// The material of a cell: the plane's own, or on the odd ones of a board the checker's.
+inline MaterialIndex material_of(const Plane& plane, Cell cell) noexcept {
+  return cell == Cell::odd ? plane.checker->material : plane.material;
+}
 
 }  // namespace tessera::render

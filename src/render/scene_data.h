@@ -40,6 +40,9 @@ struct Checker {
   double size = 1;  ///< side of a cell, world units, > 0
 };
 
+/// Which cells of a checker board; even where there is no board.
+enum class Cell : std::uint8_t { even, odd };
+
 /// An opaque two-sided infinite plane.
 struct Plane {
   Vec3 point{};

@@ -10,9 +10,15 @@
 namespace tessera::render {
 namespace {
 
-const Material& material_of(const Scene& scene, const Hit& hit) noexcept {
-  const MaterialIndex index = scene.is_sphere(hit.surface) ? scene.sphere(hit.surface).material
-                                                           : material_at(scene.plane(hit.surface), hit.point);
+using Observers = std::span<PathObserver* const>;
+
+Cell cell_of(const Scene& scene, const Hit& hit) noexcept {
+  return scene.is_sphere(hit.surface) ? Cell::even : cell_at(scene.plane(hit.surface), hit.point);
+}
+
+const Material& material_of(const Scene& scene, const Hit& hit, Cell cell) noexcept {
+  const MaterialIndex index =
+      scene.is_sphere(hit.surface) ? scene.sphere(hit.surface).material : material_of(scene.plane(hit.surface), cell);
   return scene.data().materials[static_cast<std::size_t>(index)];
 }
 
@@ -26,7 +32,7 @@ bool is_on_path_side(const Scene& scene, std::size_t light, SurfaceId hit, const
 /// Ambient light and every light that reaches the hit.
 /// shapes:  normal is unit and faces against `incoming`
 Rgb local_radiance(const Scene& scene, const Hit& hit, const Material& material, const Vec3& normal,
-                   const Vec3& incoming, const Region& region, Shade shade, RayCounts& counts) noexcept {
+                   const Vec3& incoming, const Region& region, Shade shade, RayCounts& counts, Observers observers) {
   const SceneData& data = scene.data();
   Rgb sum = data.environment.ambient * (material.ambient * material.color);
   if (material.diffuse == 0 && material.specular == 0) return sum;
@@ -35,10 +41,13 @@ Rgb local_radiance(const Scene& scene, const Hit& hit, const Material& material,
   for (std::size_t i = 0; i != data.lights.size(); ++i) {
     const Light& light = data.lights[i];
     const Vec3 reach = light.kind == LightKind::point ? light.vector - hit.point : -light.vector;
-    if (!(dot(normal, reach) > 0) || !is_on_path_side(scene, i, hit.surface, region)) continue;
-    ++counts.shadow;
-    if (is_occluded(scene, {hit.point, reach, hit.surface, hit.normal}, i, region)) continue;
-    sum += reflected_light(material, light.color, shade, normal, normalized(reach), to_viewer);
+    bool is_lit = dot(normal, reach) > 0 && is_on_path_side(scene, i, hit.surface, region);
+    if (is_lit) {
+      ++counts.shadow;
+      is_lit = !is_occluded(scene, {hit.point, reach, hit.surface, hit.normal}, i, region);
+    }
+    for (PathObserver* observer : observers) observer->on_light(i, is_lit);
+    if (is_lit) sum += reflected_light(material, light.color, shade, normal, normalized(reach), to_viewer);
   }
   return sum;
 }
@@ -52,20 +61,26 @@ Vec3 facing_normal(const Scene& scene, const Hit& hit, const Region& region) noe
 
 }  // namespace
 
-Rgb radiance_along(const Scene& scene, Ray ray, const Region& region, const TraceOptions& options,
-                   RayCounts& counts) noexcept {
+Rgb radiance_along(const Scene& scene, Ray ray, const Region& region, const TraceOptions& options, RayCounts& counts,
+                   Observers observers) {
   Rgb radiance;
   double weight = 1;
   ++counts.primary;
   for (std::uint32_t bounce = 0;; ++bounce) {
     const auto hit = nearest_hit(scene, ray, region);
-    if (!hit) break;
-    const Material& material = material_of(scene, *hit);
+    if (!hit) {
+      for (PathObserver* observer : observers) observer->on_miss(ray, weight);
+      break;
+    }
+    const Cell cell = cell_of(scene, *hit);
+    const Material& material = material_of(scene, *hit, cell);
     const double k = material.reflection;
     const Vec3 normal = facing_normal(scene, *hit, region);
+    for (PathObserver* observer : observers) observer->on_hit({ray, *hit, cell, normal, material, weight});
     if (k < 1) {
-      radiance += weight * (1 - k) *
-                  local_radiance(scene, *hit, material, normal, ray.direction, region, options.shade, counts);
+      radiance +=
+          weight * (1 - k) *
+          local_radiance(scene, *hit, material, normal, ray.direction, region, options.shade, counts, observers);
     }
     weight *= k;
     // Below the normal numbers rounding may keep a weight alive for ever: 0.9 times the smallest number is itself.

@@ -22,6 +22,10 @@ MaterialIndex expected(double u, double v, double size) {
   return std::fmod(std::floor(u / size) + std::floor(v / size), 2) == 0 ? kEven : kOdd;
 }
 
+MaterialIndex material_at(const Plane& plane, const Vec3& point) {
+  return material_of(plane, cell_at(plane, point));
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(plane)
@@ -91,6 +95,19 @@ BOOST_AUTO_TEST_CASE(first_of_equal_axes_gives_the_board) {
   BOOST_TEST((material_at(plane, 0.5 * u + 0.5 * v) == kEven));
   BOOST_TEST((material_at(plane, 1.5 * u + 0.5 * v) == kOdd));
   BOOST_TEST((material_at(plane, 0.5 * u - 0.5 * v) == kOdd));
+}
+
+// |N_y| is the smaller one by its last bit, which normalising may round away.
+BOOST_AUTO_TEST_CASE(axis_is_chosen_by_the_normal_as_given) {
+  Random random(82);
+  int made_equal = 0;
+  for (int i = 0; i != 1000; ++i) {
+    const double x = random.uniform(0.1, 0.9);
+    const Vec3 n{x, std::nextafter(x, 0), 1};
+    made_equal += normalized(n).x == normalized(n).y;
+    BOOST_REQUIRE((CheckerAxes(board({0, 0, 0}, n, 1)).u == normalized(cross({0, 1, 0}, normalized(n)))));
+  }
+  BOOST_TEST(made_equal > 0);
 }
 
 // Cells past 2^63: no integer may overflow.

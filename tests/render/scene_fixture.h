@@ -52,10 +52,11 @@ inline std::optional<Hit> hit_from(const Scene& scene, const Vec3& eye, const Ve
 }
 
 /// What an eye sees along a ray, with the bounces and the shade of the scene's image settings.
-inline Rgb seen_from(const Scene& scene, const Vec3& eye, const Vec3& direction, RayCounts& counts) {
+inline Rgb seen_from(const Scene& scene, const Vec3& eye, const Vec3& direction, RayCounts& counts,
+                     std::span<PathObserver* const> observers = {}) {
   const TraceOptions options{scene.data().image.max_bounces, scene.data().image.shade};
   const Ray ray{.origin = eye, .direction = direction};
-  return radiance_along(scene, ray, region_at(scene, eye, direction), options, counts);
+  return radiance_along(scene, ray, region_at(scene, eye, direction), options, counts, observers);
 }
 inline Rgb seen_from(const Scene& scene, const Vec3& eye, const Vec3& direction) {
   RayCounts counts;

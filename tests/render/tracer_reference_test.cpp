@@ -8,6 +8,7 @@
 #include "render/reference/quad_tracer.h"
 #include "render/scene_fixture.h"
 #include "render/scene_kinds.h"
+#include "render/signature_observer.h"
 
 using namespace tessera::render;
 using namespace tessera::render::test;
@@ -19,14 +20,22 @@ struct RadianceCheck {
   Scene scene;
   int rays = 0;
   int off = 0;
+  int other_decisions = 0;
   double error = 0;  ///< largest of the rays that are not off
   double brightest = 0;
 
   explicit RadianceCheck(const SceneData& data) : scene(data, Kernel::tree) {}
 
   void trace(const Vec3& eye, const Vec3& direction) {
-    const Rgb seen = seen_from(scene, eye, direction);
-    const QuadVec exact = QuadTracer(scene.data(), eye, direction).radiance();
+    Signature signature;
+    SignatureObserver observer(signature);
+    PathObserver* const observers[] = {&observer};
+    RayCounts counts;
+    const Rgb seen = seen_from(scene, eye, direction, counts, observers);
+    Signature exact_signature;
+    RayCounts exact_counts;
+    const QuadVec exact = QuadTracer(scene.data(), eye, direction).radiance(exact_signature, exact_counts);
+    other_decisions += !(signature == exact_signature && counts == exact_counts);
     const double e = std::max({error_of(seen.r, exact.x), error_of(seen.g, exact.y), error_of(seen.b, exact.z)});
     ++rays;
     off += e > 1e-6;
@@ -59,6 +68,7 @@ BOOST_AUTO_TEST_CASE(random_scenes_match_with_one_bounce) {
         check.trace(eye, target_in(random, data) - eye);
       }
       BOOST_TEST_MESSAGE(kind.name << ": " << check.off << " off, error " << check.error);
+      BOOST_TEST(check.other_decisions == 0, kind.name << ": " << check.other_decisions << " other decisions");
       BOOST_TEST(check.off == 0, kind.name << ": " << check.off << " of " << check.rays << " rays off");
       BOOST_TEST(check.error <= 1e-12 * (1 + length(kind.center)), kind.name << ": " << check.error);
       lit += check.brightest > 0.2;
@@ -74,6 +84,7 @@ BOOST_AUTO_TEST_CASE(closed_room_matches_with_five_bounces) {
   for (int i = 0; i != 500; ++i) check.trace(random.in_box(5), random.direction());
   BOOST_TEST_MESSAGE("closed room: " << check.off << " off, error " << check.error);
   BOOST_TEST(check.off == 0);
+  BOOST_TEST(check.other_decisions == 0);
 }
 
 // View and light through the contact of two spheres: no leak, no acne, on matte and on mirror spheres.
@@ -97,6 +108,8 @@ BOOST_AUTO_TEST_CASE(neighbourhood_of_a_contact_matches) {
     }
     BOOST_TEST_MESSAGE("contact: " << check.off << " off, error " << check.error);
     BOOST_TEST(check.off == 0);
+    BOOST_TEST(check.other_decisions == 0);
+    BOOST_TEST(check.other_decisions == 0);
   }
 }
 
@@ -117,6 +130,7 @@ BOOST_AUTO_TEST_CASE(lights_on_and_in_surfaces_match) {
   for (int i = 0; i != 2000; ++i) check.trace(random.in_box(i % 2 == 0 ? 2 : 30), random.direction());
   BOOST_TEST_MESSAGE("lights in surfaces: " << check.off << " off, error " << check.error);
   BOOST_TEST(check.off == 0);
+  BOOST_TEST(check.other_decisions == 0);
   BOOST_TEST(check.error <= 1e-12);
   BOOST_TEST(check.brightest > 1);
 }
@@ -135,6 +149,7 @@ BOOST_AUTO_TEST_CASE(eyes_on_surfaces_match) {
   }
   BOOST_TEST_MESSAGE("eyes on surfaces: " << check.off << " off, error " << check.error);
   BOOST_TEST(check.off == 0);
+  BOOST_TEST(check.other_decisions == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

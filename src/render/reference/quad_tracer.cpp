@@ -29,6 +29,11 @@ Quad floor_of(Quad a) {
   return whole > a ? whole - 1 : whole;
 }
 
+/// From a point to a light: as far as it is, or of any length where the light is infinitely far.
+QuadVec towards(const Light& light, const QuadVec& point) {
+  return light.kind == LightKind::point ? QuadVec(light.vector) - point : Quad(-1) * QuadVec(light.vector);
+}
+
 }  // namespace
 
 QuadTracer::QuadTracer(const SceneData& scene, const Vec3& eye, const Vec3& direction)
@@ -95,73 +100,97 @@ bool QuadTracer::is_blocked(const QuadRay& ray, const Light& light) const {
   return false;
 }
 
-QuadVec QuadTracer::local_light(const QuadHit& hit, const Material& material, const QuadVec& to_viewer) const {
+bool QuadTracer::is_lit(const QuadHit& hit, const Light& light, RayCounts& counts) const {
+  const QuadVec to_light = towards(light, hit.point);
+  // Any point of a plane tells its side, and the one it is given by is not rounded.
+  const std::size_t spheres = scene_.spheres.size();
+  const QuadVec foot = hit.surface < spheres ? hit.point : QuadVec(scene_.planes[hit.surface - spheres].point);
+  if (!(quad_dot(hit.normal, towards(light, foot)) > 0)) return false;
+  ++counts.shadow;
+  return !is_blocked({hit.point, to_light, hit.surface, hit.normal}, light);
+}
+
+QuadVec QuadTracer::reflected_light(const QuadHit& hit, const Material& material, const QuadVec& to_viewer,
+                                    Signature& signature, RayCounts& counts) const {
   QuadVec sum = Quad(material.ambient) * channelwise(color(scene_.environment.ambient), color(material.color));
-  for (const Light& light : scene_.lights) sum = sum + light_from(light, hit, material, to_viewer);
+  if (material.diffuse == 0 && material.specular == 0) return sum;
+  for (const Light& light : scene_.lights) {
+    const bool lit = is_lit(hit, light, counts);
+    signature.light(lit);
+    if (!lit) continue;
+    const QuadVec l = quad_unit(towards(light, hit.point));
+    const Quad cosine = quad_dot(hit.normal, l);
+    QuadVec term = Quad(material.diffuse) * cosine * color(material.color);
+    const Quad base = scene_.image.shade == Shade::phong ? quad_dot(2 * cosine * hit.normal - l, to_viewer)
+                                                         : quad_dot(hit.normal, quad_unit(l + to_viewer));
+    if (base > 0) {
+      const Quad highlight = Quad(material.specular) * quad_power(base < 1 ? base : 1, material.shininess);
+      term = term + QuadVec(highlight, highlight, highlight);
+    }
+    sum = sum + channelwise(color(light.color), term);
+  }
   return sum;
 }
 
-QuadVec QuadTracer::light_from(const Light& light, const QuadHit& hit, const Material& material,
-                               const QuadVec& to_viewer) const {
-  const bool is_point = light.kind == LightKind::point;
-  const QuadVec to_light = is_point ? QuadVec(light.vector) - hit.point : Quad(-1) * QuadVec(light.vector);
-  const Quad n_l = quad_dot(hit.normal, to_light);
-  if (!(n_l > 0) || is_blocked({hit.point, to_light, hit.surface, hit.normal}, light)) return {};
-  const QuadVec l = quad_unit(to_light);
-  const Quad cosine = n_l / quad_length(to_light);
-  QuadVec term = Quad(material.diffuse) * cosine * color(material.color);
-  const Quad base = scene_.image.shade == Shade::phong ? quad_dot(2 * cosine * hit.normal - l, to_viewer)
-                                                       : quad_dot(hit.normal, quad_unit(l + to_viewer));
-  if (base > 0) {
-    const Quad highlight = Quad(material.specular) * quad_power(base < 1 ? base : 1, material.shininess);
-    term = term + QuadVec(highlight, highlight, highlight);
-  }
-  return channelwise(color(light.color), term);
-}
-
-QuadVec QuadTracer::radiance() const {
+QuadVec QuadTracer::radiance(Signature& signature, RayCounts& counts) const {
   QuadVec radiance;
   Quad weight = 1;
   QuadRay ray = camera_ray_;
+  ++counts.primary;
   for (std::uint32_t bounce = 0;; ++bounce) {
     const std::optional<QuadHit> hit = nearest(ray);
-    if (!hit) break;
-    const Material& material = material_of(*hit);
+    if (!hit) {
+      signature.miss();
+      break;
+    }
+    const Cell cell = cell_of(*hit);
+    const Material& material = material_of(*hit, cell);
+    signature.meet(surface_id(hit->surface), cell);
     const Quad k = material.reflection;
-    radiance = radiance + weight * (1 - k) * local_light(*hit, material, quad_unit(Quad(-1) * ray.direction));
+    if (k < 1) {
+      const QuadVec to_viewer = quad_unit(Quad(-1) * ray.direction);
+      radiance = radiance + weight * (1 - k) * reflected_light(*hit, material, to_viewer, signature, counts);
+    }
     weight *= k;
     // No double can tell what is left from nothing.
     if (weight < std::numeric_limits<double>::min()) return radiance;
     if (bounce == scene_.image.max_bounces) break;
+    ++counts.mirror;
     const QuadVec mirrored = ray.direction - 2 * quad_dot(ray.direction, hit->normal) * hit->normal;
     ray = {hit->point, mirrored, hit->surface, hit->normal};
   }
   return radiance + weight * color(scene_.environment.background);
 }
 
-const Material& QuadTracer::material_of(const QuadHit& hit) const {
-  MaterialIndex index{};
-  if (hit.surface < scene_.spheres.size()) {
-    index = scene_.spheres[hit.surface].material;
-  } else {
-    const Plane& plane = scene_.planes[hit.surface - scene_.spheres.size()];
-    index = plane.checker && is_odd_cell(plane, hit.point) ? plane.checker->material : plane.material;
-  }
+QuadVec QuadTracer::radiance() const {
+  Signature signature;
+  RayCounts counts;
+  return radiance(signature, counts);
+}
+
+const Material& QuadTracer::material_of(const QuadHit& hit, Cell cell) const {
+  const std::size_t spheres = scene_.spheres.size();
+  const MaterialIndex index = hit.surface < spheres ? scene_.spheres[hit.surface].material
+                              : cell == Cell::odd   ? scene_.planes[hit.surface - spheres].checker->material
+                                                    : scene_.planes[hit.surface - spheres].material;
   return scene_.materials[static_cast<std::size_t>(index)];
 }
 
-bool QuadTracer::is_odd_cell(const Plane& plane, const QuadVec& point) const {
+Cell QuadTracer::cell_of(const QuadHit& hit) const {
+  if (hit.surface < scene_.spheres.size()) return Cell::even;
+  const Plane& plane = scene_.planes[hit.surface - scene_.spheres.size()];
+  if (!plane.checker) return Cell::even;
   const QuadVec n = quad_unit(plane.normal);
   const Quad ax = magnitude(plane.normal.x);
   const Quad ay = magnitude(plane.normal.y);
   const Quad az = magnitude(plane.normal.z);
   const QuadVec e = ax <= ay && ax <= az ? QuadVec(1, 0, 0) : ay <= az ? QuadVec(0, 1, 0) : QuadVec(0, 0, 1);
   const QuadVec u = quad_unit(quad_cross(e, n));
-  const QuadVec from_origin = point - QuadVec(plane.point);
+  const QuadVec from_origin = hit.point - QuadVec(plane.point);
   const Quad size = plane.checker->size;
   const Quad cell =
       floor_of(quad_dot(from_origin, u) / size) + floor_of(quad_dot(from_origin, quad_cross(n, u)) / size);
-  return cell != 2 * floor_of(cell / 2);
+  return cell == 2 * floor_of(cell / 2) ? Cell::even : Cell::odd;
 }
 
 }  // namespace tessera::render::reference

@@ -6,8 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "render/ray_counts.h"
 #include "render/reference/quad.h"
 #include "render/scene_data.h"
+#include "render/signature.h"
 
 // The rendering model once more, in quad precision, by brute force, with the textbook's formulas: what the renderer is
 // measured against. It takes the camera ray as the renderer rounds it, and shares no code with how that is traced.
@@ -27,7 +29,8 @@ class QuadTracer {
 
   std::optional<QuadHit> first_hit() const { return nearest(camera_ray_); }
 
-  /// Radiance arriving at the eye.
+  /// Radiance arriving at the eye, and on the way the path's decisions and its rays.
+  QuadVec radiance(Signature& signature, RayCounts& counts) const;
   QuadVec radiance() const;
 
  private:
@@ -42,10 +45,11 @@ class QuadTracer {
   std::optional<Quad> distance_to(std::size_t surface, const QuadRay& ray) const;
   std::optional<QuadHit> nearest(const QuadRay& ray) const;
   bool is_blocked(const QuadRay& ray, const Light& light) const;
-  QuadVec local_light(const QuadHit& hit, const Material& material, const QuadVec& to_viewer) const;
-  QuadVec light_from(const Light& light, const QuadHit& hit, const Material& material, const QuadVec& to_viewer) const;
-  const Material& material_of(const QuadHit& hit) const;
-  bool is_odd_cell(const Plane& plane, const QuadVec& point) const;
+  bool is_lit(const QuadHit& hit, const Light& light, RayCounts& counts) const;
+  QuadVec reflected_light(const QuadHit& hit, const Material& material, const QuadVec& to_viewer, Signature& signature,
+                          RayCounts& counts) const;
+  const Material& material_of(const QuadHit& hit, Cell cell) const;
+  Cell cell_of(const QuadHit& hit) const;
 
   const SceneData& scene_;
   QuadRay camera_ray_;
