@@ -152,6 +152,15 @@ void add_schedule_options(CLI::App& app, RenderOptions& options) {
       "how spheres are searched [auto]", [&](auto kernel) { options.kernel = kernel; });
 }
 
+void add_accuracy_options(CLI::App& app, RenderOptions& options) {
+  const auto group = app.add_option_group("Accuracy", "how exact the picture is");
+  group->add_flag_callback(
+      "--reference", [&] { options.tracer = render::Tracer::reference; },
+      "trace in quad precision by brute force: for small scenes");
+  group->add_option("--signature", options.signature, "write what each pixel saw and what lit it, for compare")
+      ->type_name("FILE");
+}
+
 void add_report_options(CLI::App& app, RenderOptions& options) {
   const auto group = app.add_option_group("Report", "\"-\" as FILE is standard output");
   group->add_option("--stats", options.stats, "write times, rays and load balance as JSON")->type_name("FILE");
@@ -209,12 +218,16 @@ Command parse_command_line(int argc, const char* const* argv) {
       ->type_name("FILE");
   add_picture_options(render_app, render);
   add_schedule_options(render_app, render);
+  add_accuracy_options(render_app, render);
   add_report_options(render_app, render);
 
   CLI::App& compare_app = *app.add_subcommand("compare", "measure how far two pictures are apart");
   compare_app.add_option("A", compare.a, "picture")->required();
   compare_app.add_option("B", compare.b, "picture to compare with")->required();
   compare_app.add_option("--tolerance", compare.tolerance, "largest difference of a channel that is fine [0]");
+  compare_app.add_option("--signatures", compare.signatures, "count the pixels that saw or were lit otherwise")
+      ->expected(2)
+      ->type_name("A.sig B.sig");
   compare_app.add_flag("--json", compare.json, "print JSON");
 
   CLI::App& info_app = *app.add_subcommand("info", "say what a scene holds and what it takes");

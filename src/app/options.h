@@ -6,10 +6,12 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "render/image.h"
 #include "render/scene.h"
 #include "render/scene_data.h"
+#include "render/tile_renderer.h"
 #include "scheduler/plan.h"
 
 // What the command line says, as data.
@@ -39,7 +41,9 @@ struct RenderOptions {
   scheduler::MasterRole master = scheduler::MasterRole::automatic;
   std::optional<unsigned> prefetch;
   render::Kernel kernel = render::Kernel::tree;
+  render::Tracer tracer = render::Tracer::fast;
 
+  std::optional<std::filesystem::path> signature;
   std::optional<std::filesystem::path> stats;       ///< "-" is stdout
   std::optional<std::filesystem::path> tile_stats;  ///< "-" is stdout
   ProgressStyle progress = ProgressStyle::automatic;
@@ -50,7 +54,8 @@ struct RenderOptions {
 struct CompareOptions {
   std::filesystem::path a;
   std::filesystem::path b;
-  double tolerance = 0;  ///< largest max_abs that still counts as equal
+  double tolerance = 0;                           ///< largest max_abs that still counts as equal
+  std::vector<std::filesystem::path> signatures;  ///< of a and of b, or none
   bool json = false;
 };
 

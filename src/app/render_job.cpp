@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/render_job.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <type_traits>
@@ -22,8 +23,11 @@ struct JobHeader {
   render::Kernel kernel;
   scheduler::Policy policy;
   scheduler::MasterRole master;
+  render::Tracer tracer;
+  Layers layers;
+  std::uint8_t unused[2];
 };
-static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 32);
+static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 36);
 
 /// In front of a tile's pixels; its primary rays are known to everybody.
 struct TileHeader {
@@ -32,11 +36,26 @@ struct TileHeader {
 };
 static_assert(std::is_trivially_copyable_v<TileHeader> && sizeof(TileHeader) == 16);
 
+/// Bytes that a tile delivers.
+std::size_t delivery_size(std::size_t pixels, render::PixelFormat format, Layers layers) {
+  const std::size_t signature_size = layers.signatures ? sizeof(render::Signature) : 0;
+  return sizeof(TileHeader) + pixels * (bytes_per_pixel(format) + signature_size);
+}
+
 }  // namespace
 
 scheduler::Bytes encode_job(const RenderJob& job) {
-  const JobHeader header{job.area,   job.tile_width, job.tile_height, job.prefetch.value_or(0),
-                         job.format, job.kernel,     job.policy,      job.master};
+  const JobHeader header{job.area,
+                         job.tile_width,
+                         job.tile_height,
+                         job.prefetch.value_or(0),
+                         job.format,
+                         job.kernel,
+                         job.policy,
+                         job.master,
+                         job.tracer,
+                         job.layers,
+                         {}};
   const auto scene = io::encode_scene(job.scene);
   scheduler::Bytes bytes(sizeof header + scene.size());
   std::memcpy(bytes.data(), &header, sizeof header);
@@ -53,6 +72,8 @@ RenderJob decode_job(std::span<const std::byte> bytes) {
   job.area = header.area;
   job.format = header.format;
   job.kernel = header.kernel;
+  job.tracer = header.tracer;
+  job.layers = header.layers;
   job.tile_width = header.tile_width;
   job.tile_height = header.tile_height;
   job.policy = header.policy;
@@ -77,19 +98,26 @@ scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tile
 }
 
 TileWork::TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles)
-    : renderer_(scene, job.format), format_(job.format), tiles_(tiles) {}
+    : renderer_(scene, job.format, job.tracer), format_(job.format), layers_(job.layers), tiles_(tiles) {}
 
 scheduler::Bytes TileWork::operator()(scheduler::TaskId task, const std::function<void()>& between_slices) const {
   const render::Rect& tile = tiles_[index_of(task)];
-  scheduler::Bytes delivered(sizeof(TileHeader) + tile.pixels() * bytes_per_pixel(format_));
-  const auto counts = renderer_.render(tile, std::span(delivered).subspan(sizeof(TileHeader)), between_slices);
+  scheduler::Bytes delivered(delivery_size(tile.pixels(), format_, layers_));
+  const auto colors = std::span(delivered).subspan(sizeof(TileHeader), tile.pixels() * bytes_per_pixel(format_));
+  std::vector<render::Signature> signatures(layers_.signatures ? tile.pixels() : 0);
+  const auto counts = renderer_.render(tile, {colors, signatures}, between_slices);
   const TileHeader header{counts.shadow, counts.mirror};
   std::memcpy(delivered.data(), &header, sizeof header);
+  const auto bytes = std::as_bytes(std::span(signatures));
+  std::copy(bytes.begin(), bytes.end(), colors.data() + colors.size());
   return delivered;
 }
 
 Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
     : image_(job.area.width, job.area.height, job.format),
+      signatures_{job.area.width, job.area.height,
+                  std::vector<render::Signature>(job.layers.signatures ? job.area.pixels() : 0)},
+      layers_(job.layers),
       area_(job.area),
       samples_(job.scene.image.samples),
       tiles_(tiles),
@@ -97,8 +125,7 @@ Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
 
 void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered) {
   const render::Rect& tile = tiles_[index_of(task)];
-  const std::size_t pixel_size = bytes_per_pixel(image_.format);
-  if (delivered.size() != sizeof(TileHeader) + tile.pixels() * pixel_size) {
+  if (delivered.size() != delivery_size(tile.pixels(), image_.format, layers_)) {
     throw std::runtime_error("tile " + std::to_string(index_of(task)) + " arrived with " +
                              std::to_string(delivered.size()) + " bytes (its size asks for another number)");
   }
@@ -106,12 +133,21 @@ void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered
   std::memcpy(&header, delivered.data(), sizeof header);
   rays_[index_of(task)] = {tile.pixels() * samples_, header.shadow_rays, header.mirror_rays};
 
-  const std::size_t row_bytes = tile.width * pixel_size;
-  const std::byte* row = delivered.data() + sizeof header;
-  for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y, row += row_bytes) {
-    const std::size_t pixel = std::size_t{y} * image_.width + (tile.x - area_.x);
-    std::memcpy(image_.bytes.data() + pixel * pixel_size, row, row_bytes);
+  const std::byte* layer = delivered.data() + sizeof header;
+  layer = place(tile, bytes_per_pixel(image_.format), layer, image_.bytes.data());
+  if (layers_.signatures) {
+    place(tile, sizeof(render::Signature), layer, std::as_writable_bytes(std::span(signatures_.pixels)).data());
   }
+}
+
+const std::byte* Mosaic::place(const render::Rect& tile, std::size_t pixel_size, const std::byte* from,
+                               std::byte* to) const {
+  const std::size_t row_bytes = tile.width * pixel_size;
+  for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y, from += row_bytes) {
+    const std::size_t pixel = std::size_t{y} * area_.width + (tile.x - area_.x);
+    std::memcpy(to + pixel * pixel_size, from, row_bytes);
+  }
+  return from;
 }
 
 }  // namespace tessera::app

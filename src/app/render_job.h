@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/scene.h"
+#include "render/signature_image.h"
 #include "render/tile_renderer.h"
 #include "scheduler/plan.h"
 #include "scheduler/work.h"
@@ -16,12 +17,19 @@
 // Where the renderer and the scheduler meet: tiles become tasks, and what a task delivers becomes part of a picture.
 namespace tessera::app {
 
+/// What the tiles bring home besides colours.
+struct Layers {
+  bool signatures = false;
+};
+
 /// All that a rank must know to render; rank 0 reads it and sends it to the others.
 struct RenderJob {
   render::SceneData scene;  ///< with a camera
   render::Rect area;        ///< the part of the picture to render
   render::PixelFormat format = render::PixelFormat::rgb8;
   render::Kernel kernel = render::Kernel::tree;
+  render::Tracer tracer = render::Tracer::fast;
+  Layers layers;
   std::uint32_t tile_width = 16;
   std::uint32_t tile_height = 16;
   scheduler::Policy policy = scheduler::Policy::dynamic;
@@ -39,7 +47,8 @@ std::vector<render::Rect> tiles_of(const RenderJob& job, std::uint32_t ranks);
 /// How the job's tiles are to be shared out.
 scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tiles);
 
-/// A rank's share of a job: renders any of its tiles. What it delivers for a tile is its ray counts, then its pixels.
+/// A rank's share of a job: renders any of its tiles. What it delivers for a tile is its ray counts, then its
+/// pixels, layer by layer.
 class TileWork {
  public:
   TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles);
@@ -49,6 +58,7 @@ class TileWork {
  private:
   render::TileRenderer renderer_;
   render::PixelFormat format_;
+  Layers layers_;
   std::span<const render::Rect> tiles_;
 };
 
@@ -61,11 +71,18 @@ class Mosaic {
   void accept(scheduler::TaskId task, std::span<const std::byte> delivered);
 
   const render::Image& image() const noexcept { return image_; }
+  /// Without pixels where the job does not ask for them.
+  const render::SignatureImage& signatures() const noexcept { return signatures_; }
   /// Rays of each tile.
   std::span<const render::RayCounts> rays() const noexcept { return rays_; }
 
  private:
+  /// Copies a tile's rows of one layer to their place, and returns where the next layer begins.
+  const std::byte* place(const render::Rect& tile, std::size_t pixel_size, const std::byte* from, std::byte* to) const;
+
   render::Image image_;
+  render::SignatureImage signatures_;
+  Layers layers_;
   render::Rect area_;
   std::uint64_t samples_;
   std::span<const render::Rect> tiles_;

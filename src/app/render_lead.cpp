@@ -14,6 +14,7 @@
 #include "io/error.h"
 #include "io/image_file.h"
 #include "io/scene_reader.h"
+#include "io/signature_file.h"
 #include "render/camera.h"
 #include "render/check.h"
 #include "render/scale.h"
@@ -115,6 +116,8 @@ void RenderLead::read_scene() {
 
 void RenderLead::plan_schedule() {
   job_.kernel = options_.kernel;
+  job_.tracer = options_.tracer;
+  job_.layers = {options_.signature.has_value()};
   job_.tile_width = options_.tile.width;
   job_.tile_height = options_.tile.height;
   job_.policy = options_.policy;
@@ -133,9 +136,11 @@ void RenderLead::plan_schedule() {
 void RenderLead::open_outputs() {
   refuse_shared_names({{"INPUT", options_.input},
                        {"-o", options_.output},
+                       {"--signature", options_.signature},
                        {"--stats", options_.stats},
                        {"--tile-stats", options_.tile_stats}});
   picture_.emplace(options_.output);
+  if (options_.signature) signature_file_.emplace(*options_.signature);
   if (options_.stats) stats_file_.emplace(*options_.stats);
   if (options_.tile_stats) tile_stats_file_.emplace(*options_.tile_stats);
 }
@@ -145,6 +150,7 @@ void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tile
   const scheduler::Stopwatch write;
   const auto format = format_of(options_.output);
   picture_->write(io::encode_image(format, mosaic.image(), job_.scene.image.transfer, {{"Software", "Tessera"}}));
+  if (signature_file_) signature_file_->write(io::encode_signatures(mosaic.signatures()));
   stats_.time_s.write = write.seconds();
   stats_.time_s.render = run.makespan_s;
   stats_.time_s.total = total.seconds();
@@ -154,6 +160,7 @@ void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tile
   if (tile_stats_file_) tile_stats_file_->write(tile_stats_csv(tile_rows(tiles, mosaic.rays(), run)));
   // No file gets its name before all of them are written.
   picture_->commit();
+  if (signature_file_) signature_file_->commit();
   if (stats_file_) stats_file_->commit();
   if (tile_stats_file_) tile_stats_file_->commit();
   if (options_.quiet) return;

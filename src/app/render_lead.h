@@ -45,6 +45,7 @@ class RenderLead {
   io::Stats stats_;
   std::vector<std::string> notes_;
   std::optional<io::OutputFile> picture_;
+  std::optional<io::OutputFile> signature_file_;
   std::optional<TextOutput> stats_file_;
   std::optional<TextOutput> tile_stats_file_;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "render/encode.h"
+#include "render/reference/quad_tracer.h"
+#include "render/signature_observer.h"
 
 namespace tessera::render {
 namespace {
@@ -12,11 +14,21 @@ namespace {
 /// pixels instead would pause far too often in the sky and too rarely between mirrors.
 constexpr std::uint64_t kSliceRays = 256;
 
+/// A ray in quad precision takes more than a slice.
+std::uint64_t slice_rays_of(Tracer tracer) {
+  return tracer == Tracer::reference ? 1 : kSliceRays;
+}
+
+Rgb rounded(const reference::QuadVec& color) {
+  return {static_cast<double>(color.x), static_cast<double>(color.y), static_cast<double>(color.z)};
+}
+
 }  // namespace
 
-TileRenderer::TileRenderer(const Scene& scene, PixelFormat format)
+TileRenderer::TileRenderer(const Scene& scene, PixelFormat format, Tracer tracer)
     : scene_(scene),
       format_(format),
+      tracer_(tracer),
       camera_(scene.data().camera.value(), scene.data().image.width, scene.data().image.height),
       trace_options_{scene.data().image.max_bounces, scene.data().image.shade},
       grid_(static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(scene.data().image.samples))))) {
@@ -26,39 +38,63 @@ TileRenderer::TileRenderer(const Scene& scene, PixelFormat format)
   if (eye_placement_.touching.empty()) region_.emplace(scene, eye_placement_, center.origin, center.direction);
 }
 
-RayCounts TileRenderer::render(const Rect& tile, std::span<std::byte> pixels,
+RayCounts TileRenderer::render(const Rect& tile, const TilePixels& out,
                                const std::function<void()>& between_slices) const {
   RayCounts counts;
-  std::byte* out = pixels.data();
-  std::uint64_t slice_end = kSliceRays;
+  std::byte* color = out.colors.data();
+  std::size_t index = 0;
+  const std::uint64_t slice_rays = slice_rays_of(tracer_);
+  std::uint64_t slice_end = slice_rays;
   for (std::uint32_t y = tile.y; y != tile.y + tile.height; ++y) {
-    for (std::uint32_t x = tile.x; x != tile.x + tile.width; ++x) {
-      encode_pixel(pixel(x, y, counts), format_, scene_.data().image.transfer, out);
-      out += bytes_per_pixel(format_);
+    for (std::uint32_t x = tile.x; x != tile.x + tile.width; ++x, ++index) {
+      const Pixel seen = pixel(x, y, out, counts);
+      encode_pixel(seen.color, format_, scene_.data().image.transfer, color);
+      color += bytes_per_pixel(format_);
+      if (!out.signatures.empty()) out.signatures[index] = seen.signature;
       if (counts.total() >= slice_end) {
         between_slices();
-        slice_end = counts.total() + kSliceRays;
+        slice_end = counts.total() + slice_rays;
       }
     }
   }
   return counts;
 }
 
-Rgb TileRenderer::pixel(std::uint32_t x, std::uint32_t y, RayCounts& counts) const {
-  Rgb sum;
+TileRenderer::Pixel TileRenderer::pixel(std::uint32_t x, std::uint32_t y, const TilePixels& asked,
+                                        RayCounts& counts) const {
+  Pixel pixel;
   for (std::uint32_t j = 0; j != grid_; ++j) {
-    for (std::uint32_t i = 0; i != grid_; ++i) sum += sample(x + (i + 0.5) / grid_, y + (j + 0.5) / grid_, counts);
+    for (std::uint32_t i = 0; i != grid_; ++i) {
+      add_sample(x + (i + 0.5) / grid_, y + (j + 0.5) / grid_, asked, pixel, counts);
+    }
   }
-  return sum * (1.0 / (static_cast<double>(grid_) * grid_));
+  pixel.color = pixel.color * (1.0 / (static_cast<double>(grid_) * grid_));
+  return pixel;
 }
 
-Rgb TileRenderer::sample(double x, double y, RayCounts& counts) const {
+void TileRenderer::add_sample(double x, double y, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const {
   const Ray ray = camera_.through(x, y);
-  if (region_) return radiance_along(scene_, ray, *region_, trace_options_, counts);
+  if (tracer_ == Tracer::reference) {
+    const reference::QuadTracer tracer(scene_.data(), ray.origin, ray.direction);
+    pixel.color += rounded(tracer.radiance(pixel.signature, counts));
+    return;
+  }
+  if (region_) {
+    pixel.color += traced(ray, *region_, asked, pixel, counts);
+    return;
+  }
   const bool perspective = camera_.projection() == Projection::perspective;
   const Region region(scene_, perspective ? eye_placement_ : scene_.placement_of(ray.origin), ray.origin,
                       ray.direction);
-  return radiance_along(scene_, ray, region, trace_options_, counts);
+  pixel.color += traced(ray, region, asked, pixel, counts);
+}
+
+Rgb TileRenderer::traced(const Ray& ray, const Region& region, const TilePixels& asked, Pixel& pixel,
+                         RayCounts& counts) const {
+  if (asked.signatures.empty()) return radiance_along(scene_, ray, region, trace_options_, counts);
+  SignatureObserver observer(pixel.signature);
+  PathObserver* const observers[] = {&observer};
+  return radiance_along(scene_, ray, region, trace_options_, counts, observers);
 }
 
 }  // namespace tessera::render

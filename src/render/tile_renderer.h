@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -8,27 +10,47 @@
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/region.h"
+#include "render/signature.h"
 #include "render/tracer.h"
 
 // The pixels of a tile. They depend on the scene, the image settings and their own place alone: not on the tile that
 // they are rendered in, nor on who renders it.
 namespace tessera::render {
 
+/// Who follows the paths.
+enum class Tracer : std::uint8_t {
+  fast,       ///< tracer.h
+  reference,  ///< reference/quad_tracer.h: quad precision and brute force, some ten thousand times slower
+};
+
+/// Where the pixels of a tile go, layer by layer, top row first.
+/// shapes:  colors has room for the tile's pixels in the renderer's format; the others for one a pixel, or are empty
+///          where they are not asked for
+struct TilePixels {
+  std::span<std::byte> colors;
+  std::span<Signature> signatures{};
+};
+
 class TileRenderer {
  public:
   /// requires: scene has a camera (see framed_camera) and outlives the renderer
-  TileRenderer(const Scene& scene, PixelFormat format);
+  TileRenderer(const Scene& scene, PixelFormat format, Tracer tracer = Tracer::fast);
 
-  /// Renders the pixels of `tile`, in coordinates of the whole picture, and calls `between_slices` every few hundred
-  /// rays. shapes:  pixels has room for tile.pixels() of the format, top row first
-  RayCounts render(const Rect& tile, std::span<std::byte> pixels, const std::function<void()>& between_slices) const;
+  /// Renders the pixels of `tile`, in coordinates of the whole picture, and calls `between_slices` every 0.1 ms or so.
+  RayCounts render(const Rect& tile, const TilePixels& out, const std::function<void()>& between_slices) const;
 
  private:
-  Rgb pixel(std::uint32_t x, std::uint32_t y, RayCounts& counts) const;
-  Rgb sample(double x, double y, RayCounts& counts) const;
+  struct Pixel {
+    Rgb color;
+    Signature signature;
+  };
+  Pixel pixel(std::uint32_t x, std::uint32_t y, const TilePixels& asked, RayCounts& counts) const;
+  void add_sample(double x, double y, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const;
+  Rgb traced(const Ray& ray, const Region& region, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const;
 
   const Scene& scene_;
   PixelFormat format_;
+  Tracer tracer_;
   CameraRays camera_;
   TraceOptions trace_options_;
   std::uint32_t grid_;            ///< samples per pixel on each axis

@@ -168,6 +168,22 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual(other.returncode, 1)
         self.assertGreater(json.loads(other.stdout)["rmse"], 0)
 
+    def test_the_reference_takes_the_same_decisions(self):
+        for name, words, ranks in [("fast", [], 2), ("exact", ["--reference"], 3), ("flat", ["-b", "0"], 0)]:
+            run = self.run_tessera("render", self.scene, "-o", name + ".pfm", "--signature", name + ".sig", *words,
+                                   ranks=ranks)
+            self.assertEqual(run.returncode, 0, run.stderr)
+        same = self.run_tessera("compare", "fast.pfm", "exact.pfm", "--signatures", "fast.sig", "exact.sig", "--json",
+                                "--tolerance", "1e-6")
+        self.assertEqual(same.returncode, 0, same.stderr)
+        figures = json.loads(same.stdout)
+        self.assertEqual([figures[key] for key in ("other_first", "other_surfaces", "other_lights")], [0, 0, 0])
+        other = self.run_tessera("compare", "fast.pfm", "flat.pfm", "--signatures", "fast.sig", "flat.sig")
+        self.assertEqual(other.returncode, 1)
+        self.assertRegex(other.stdout, r"\nids +0 pixels see another surface first, [1-9]\d* meet other surfaces")
+        self.assert_refused(BAD_SCENE, "compare", "fast.pfm", "fast.pfm", "--signatures", "fast.sig", "fast.pfm",
+                            says=["fast.pfm", "--signature"], ranks=(0,))
+
     def test_info_counts_what_is_there(self):
         run = self.run_tessera("info", self.scene)
         self.assertEqual(run.returncode, 0)

@@ -19,7 +19,7 @@ BOOST_AUTO_TEST_CASE(every_tile_size_and_policy_gives_the_same_bytes_on_this_man
   session.broadcast(bytes);
   RenderJob job = decode_job(bytes);
   const render::Scene scene(job.scene, job.kernel);
-  const std::string reference = test::reference_png(job, scene);
+  const std::string reference = test::reference_files(job, scene);
   for (const test::Sharing& sharing : test::all_sharings(job)) {
     sharing.apply_to(job);
     scheduler::mpi::MpiTransport transport(session);
@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(every_tile_size_and_policy_gives_the_same_bytes_on_this_man
       continue;
     }
     const std::string png =
-        test::png_of(job, scene, session.size(), [&](const auto& plan, const auto& work, const auto& accept) {
+        test::files_of(job, scene, session.size(), [&](const auto& plan, const auto& work, const auto& accept) {
           scheduler::run_master(transport, plan, work, accept);
         });
     BOOST_TEST((png == reference), sharing.text());

@@ -10,7 +10,7 @@ using namespace tessera::app;
 namespace {
 
 std::string png_in_process(const RenderJob& job, const render::Scene& scene, std::uint32_t ranks, std::uint64_t seed) {
-  return test::png_of(job, scene, ranks, [&](const auto& plan, const auto& work, const auto& accept) {
+  return test::files_of(job, scene, ranks, [&](const auto& plan, const auto& work, const auto& accept) {
     scheduler::run_in_process(ranks, seed, plan, work, accept);
   });
 }
@@ -22,7 +22,7 @@ BOOST_AUTO_TEST_SUITE(OnePicture)
 BOOST_AUTO_TEST_CASE(every_rank_count_tile_size_policy_and_arrival_order_gives_the_same_bytes) {
   RenderJob job = test::small_job();
   const render::Scene scene(job.scene, job.kernel);
-  const std::string reference = test::reference_png(job, scene);
+  const std::string reference = test::reference_files(job, scene);
   for (const test::Sharing& sharing : test::all_sharings(job)) {
     sharing.apply_to(job);
     for (std::uint32_t ranks = 1; ranks <= 4; ++ranks) {
@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(every_rank_count_tile_size_policy_and_arrival_order_gives_t
 BOOST_AUTO_TEST_CASE(every_master_role_and_prefetch_gives_the_same_bytes) {
   RenderJob job = test::small_job();
   const render::Scene scene(job.scene, job.kernel);
-  const std::string reference = test::reference_png(job, scene);
+  const std::string reference = test::reference_files(job, scene);
   job.tile_width = 5;
   job.tile_height = 3;
   for (const auto role : {scheduler::MasterRole::dedicated, scheduler::MasterRole::rendering}) {
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(every_kernel_gives_the_same_bytes) {
   const RenderJob job = test::small_job();
   const render::Scene tree(job.scene, render::Kernel::tree);
   const render::Scene brute(job.scene, render::Kernel::brute);
-  BOOST_TEST((test::reference_png(job, tree) == test::reference_png(job, brute)));
+  BOOST_TEST((test::reference_files(job, tree) == test::reference_files(job, brute)));
 }
 
 BOOST_AUTO_TEST_CASE(a_crop_holds_the_same_pixels_as_the_whole_picture) {

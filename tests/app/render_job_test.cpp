@@ -16,6 +16,7 @@ BOOST_AUTO_TEST_CASE(a_job_survives_the_way_to_another_rank) {
   job.area = {3, 4, 20, 10};
   job.format = render::PixelFormat::rgb16;
   job.kernel = render::Kernel::brute;
+  job.tracer = render::Tracer::reference;
   job.tile_width = 9;
   job.tile_height = 2;
   job.policy = scheduler::Policy::guided;
@@ -25,6 +26,8 @@ BOOST_AUTO_TEST_CASE(a_job_survives_the_way_to_another_rank) {
   BOOST_TEST((copy.area == job.area));
   BOOST_TEST((copy.format == job.format));
   BOOST_TEST((copy.kernel == job.kernel));
+  BOOST_TEST((copy.tracer == job.tracer));
+  BOOST_TEST(copy.layers.signatures);
   BOOST_TEST(copy.tile_width == 9u);
   BOOST_TEST(copy.tile_height == 2u);
   BOOST_TEST((copy.policy == job.policy));
@@ -58,6 +61,28 @@ BOOST_AUTO_TEST_CASE(the_mosaic_refuses_a_delivery_of_another_size) {
   Mosaic mosaic(job, tiles);
   const scheduler::Bytes short_delivery(10);
   BOOST_CHECK_THROW(mosaic.accept(scheduler::TaskId{0}, short_delivery), std::runtime_error);
+}
+
+BOOST_AUTO_TEST_CASE(layers_find_their_place_in_the_mosaic) {
+  RenderJob job = test::small_job();
+  const render::Scene scene(job.scene, job.kernel);
+  const auto assembled = [&] {
+    const auto tiles = tiles_of(job, 1);
+    const TileWork work(scene, job, tiles);
+    Mosaic mosaic(job, tiles);
+    for (std::uint32_t i = 0; i != tiles.size(); ++i) {
+      mosaic.accept(scheduler::TaskId{i}, work(scheduler::TaskId{i}, [] {}));
+    }
+    return mosaic.signatures();
+  };
+  const render::SignatureImage tiled = assembled();
+  job.tile_width = job.tile_height = 1000;
+  const render::SignatureImage whole = assembled();
+  BOOST_TEST(whole.pixels.size() == job.area.pixels());
+  BOOST_TEST((tiled.pixels == whole.pixels));
+  BOOST_TEST((whole.pixels.front() != render::Signature{} && whole.pixels.front() != whole.pixels.back()));
+  job.layers.signatures = false;
+  BOOST_TEST(assembled().pixels.empty());
 }
 
 BOOST_AUTO_TEST_CASE(rays_are_counted_per_tile_and_add_up_to_the_whole) {

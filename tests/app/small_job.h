@@ -7,6 +7,7 @@
 
 #include "app/render_job.h"
 #include "io/image_file.h"
+#include "io/signature_file.h"
 
 // A small render that has everything a picture can depend on: mirrors, shadows, overlapping spheres, a checkered
 // floor, point and directional light, several samples. Its picture is what every schedule must reproduce.
@@ -40,6 +41,7 @@ inline RenderJob small_job() {
   RenderJob job;
   job.scene = small_scene();
   job.area = {0, 0, job.scene.image.width, job.scene.image.height};
+  job.layers.signatures = true;
   return job;
 }
 
@@ -73,21 +75,22 @@ inline std::vector<Sharing> all_sharings(const RenderJob& job) {
   return sharings;
 }
 
-/// The PNG that a run makes; `run` takes plan, work and accept.
+/// The picture and the signatures that a run makes, one file after the other; `run` takes plan, work and accept.
 template <class Run>
-std::string png_of(const RenderJob& job, const render::Scene& scene, std::uint32_t ranks, Run&& run) {
+std::string files_of(const RenderJob& job, const render::Scene& scene, std::uint32_t ranks, Run&& run) {
   const auto tiles = tiles_of(job, ranks);
   Mosaic mosaic(job, tiles);
   run(plan_of(job, tiles), TileWork(scene, job, tiles),
       [&](scheduler::TaskId task, std::span<const std::byte> delivered) { mosaic.accept(task, delivered); });
-  return io::encode_image(io::ImageFormat::png, mosaic.image(), job.scene.image.transfer, {});
+  return io::encode_image(io::ImageFormat::png, mosaic.image(), job.scene.image.transfer, {}) +
+         io::encode_signatures(mosaic.signatures());
 }
 
 /// The picture that everything is compared with: one tile, one rank, nothing scheduled.
-inline std::string reference_png(const RenderJob& job, const render::Scene& scene) {
+inline std::string reference_files(const RenderJob& job, const render::Scene& scene) {
   RenderJob whole = job;
   Sharing{scheduler::Policy::dynamic, job.area.width, job.area.height}.apply_to(whole);
-  return png_of(whole, scene, 1, [](const auto&, const auto& work, const auto& accept) {
+  return files_of(whole, scene, 1, [](const auto&, const auto& work, const auto& accept) {
     accept(scheduler::TaskId{0}, work(scheduler::TaskId{0}, [] {}));
   });
 }

@@ -69,7 +69,7 @@ inline Rgb seen_from(SceneData scene, const Vec3& eye, const Vec3& direction) {
 /// The pixels of one rectangle of a scene's picture.
 inline Image render_rect(const Scene& scene, const Rect& rect, PixelFormat format) {
   Image image(rect.width, rect.height, format);
-  TileRenderer(scene, format).render(rect, image.bytes, [] {});
+  TileRenderer(scene, format).render(rect, {image.bytes}, [] {});
   return image;
 }
 inline Image render_picture(const Scene& scene, PixelFormat format) {

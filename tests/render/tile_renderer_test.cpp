@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(every_tiling_gives_the_same_picture) {
     std::reverse(tiles.begin(), tiles.end());
     for (const Rect& tile : tiles) {
       Image part(tile.width, tile.height, PixelFormat::rgb32f);
-      renderer.render(tile, part.bytes, [] {});
+      renderer.render(tile, {part.bytes}, [] {});
       BOOST_REQUIRE((part.bytes == cut(whole, tile)));
     }
   }
@@ -190,21 +190,44 @@ BOOST_AUTO_TEST_CASE(rays_are_counted_by_purpose) {
   const Scene scene(data, Kernel::tree);
   const TileRenderer renderer(scene, PixelFormat::rgb8);
   Image image(37, 23, PixelFormat::rgb8);
-  const RayCounts whole = renderer.render({0, 0, 37, 23}, image.bytes, [] {});
+  const RayCounts whole = renderer.render({0, 0, 37, 23}, {image.bytes}, [] {});
   RayCounts parts;
-  for (const Rect& tile : tile_grid({0, 0, 37, 23}, 7, 5)) parts += renderer.render(tile, image.bytes, [] {});
+  for (const Rect& tile : tile_grid({0, 0, 37, 23}, 7, 5)) parts += renderer.render(tile, {image.bytes}, [] {});
   BOOST_TEST(whole.primary == 4U * 37 * 23);
   BOOST_TEST(whole.total() == whole.primary + whole.shadow + whole.mirror);
-  BOOST_TEST((parts.primary == whole.primary && parts.shadow == whole.shadow && parts.mirror == whole.mirror));
+  BOOST_TEST((parts == whole));
   BOOST_TEST(whole.mirror > 0U);
   BOOST_TEST(whole.shadow > 0U);
+}
+
+// In quad precision, through the same camera rays: the same floats where nothing is left to round.
+BOOST_AUTO_TEST_CASE(reference_shows_the_same_picture_and_signatures) {
+  SceneData data = busy_scene();
+  data.image.samples = 4;
+  const Scene scene(data, Kernel::tree);
+  const auto rendered = [&](Tracer tracer, std::vector<Signature>& signatures, RayCounts& counts) {
+    Image image(37, 23, PixelFormat::rgb32f);
+    signatures.resize(37 * 23);
+    counts = TileRenderer(scene, image.format, tracer).render({0, 0, 37, 23}, {image.bytes, signatures}, [] {});
+    return image;
+  };
+  std::vector<Signature> fast_signatures;
+  std::vector<Signature> exact_signatures;
+  RayCounts fast_counts;
+  RayCounts exact_counts;
+  const Image fast = rendered(Tracer::fast, fast_signatures, fast_counts);
+  const Image exact = rendered(Tracer::reference, exact_signatures, exact_counts);
+  BOOST_TEST(difference_between(fast, exact).max_abs < 1e-7);
+  BOOST_TEST((fast_signatures == exact_signatures));
+  BOOST_TEST((fast_counts == exact_counts));
+  BOOST_TEST((fast.bytes == render_picture(scene, PixelFormat::rgb32f).bytes));
 }
 
 BOOST_AUTO_TEST_CASE(slices_are_announced_and_change_nothing) {
   const Scene scene(busy_scene(64, 64), Kernel::tree);
   Image image(64, 64, PixelFormat::rgb8);
   int slices = 0;
-  TileRenderer(scene, PixelFormat::rgb8).render({0, 0, 64, 64}, image.bytes, [&] { ++slices; });
+  TileRenderer(scene, PixelFormat::rgb8).render({0, 0, 64, 64}, {image.bytes}, [&] { ++slices; });
   BOOST_TEST(slices >= 8);
   BOOST_TEST((image.bytes == render_picture(scene, PixelFormat::rgb8).bytes));
 }

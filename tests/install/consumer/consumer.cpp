@@ -17,7 +17,7 @@ int main() {
   data.image.width = data.image.height = 1;
   const render::Scene scene(data, render::Kernel::tree);
   std::vector<std::byte> pixel(3);
-  render::TileRenderer(scene, render::PixelFormat::rgb8).render({0, 0, 1, 1}, pixel, [] {});
+  render::TileRenderer(scene, render::PixelFormat::rgb8).render({0, 0, 1, 1}, {pixel}, [] {});
   const bool is_named = scheduler::parse_policy("guided").has_value() && io::image_format_of("a.png").has_value();
   // Linked, not run: a launcher would have to start it.
   const auto open_session = [](int argc, char** argv) { return scheduler::mpi::Session(argc, argv).size(); };
