@@ -61,9 +61,9 @@ class Bvh {
   template <class Visit>
   void visit_along(const Ray& ray, const double& t_max, Visit&& visit) const;
 
-  /// Calls visit(sphere) for every sphere whose box holds `point`.
-  template <class Visit>
-  void visit_at(const Vec3& point, Visit&& visit) const;
+  /// Calls visit(sphere) for every sphere in a leaf whose box, and all boxes around it, `meets(box)`.
+  template <class Meets, class Visit>
+  void visit_where(Meets&& meets, Visit&& visit) const;
 
  private:
   std::vector<Node> nodes_;
@@ -137,15 +137,15 @@ void Bvh::visit_along(const Ray& ray, const double& t_max, Visit&& visit) const 
   }
 }
 
-template <class Visit>
-void Bvh::visit_at(const Vec3& point, Visit&& visit) const {
+template <class Meets, class Visit>
+void Bvh::visit_where(Meets&& meets, Visit&& visit) const {
   if (nodes_.empty()) return;
   std::array<std::uint32_t, kMaxDepth + 1> stack;
   std::size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
     const Node& node = nodes_[stack[--size]];
-    if (!node.box.contains(point)) continue;
+    if (!meets(node.box)) continue;
     if (node.count == 0) {
       stack[size++] = node.first;
       stack[size++] = node.first + 1;

@@ -55,6 +55,7 @@ bool is_blocked(const Scene& scene, const Ray& to_light, const DirectionNorm& no
     const bool touches_light = holds(placement.touching, sphere.id);
     if (touches_light && side_of_plane(light.vector, sphere.center, to_light.direction) <= 0) return false;
     if (!touches_light && look.surely_meets(norm) && look.is_surely_before(end, norm)) return blocked = true;
+    if (scene.are_coincident(sphere.id, to_light.from)) return false;
     const Passage passage = passage_of(to_light, norm, sphere.center, sphere.radius);
     const bool has_end = is_point && !touches_light;
     blocked = line_meets(passage, to_light, sphere.center, sphere.radius) &&
@@ -86,9 +87,10 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
 
   // Spheres around the path: the far side is the hit.
   for (const SurfaceId id : region.walls()) take(exit_candidate(ray, norm, scene.sphere(id), id));
-  // All other spheres: the near side. A convex body that was just left cannot be met again.
+  // All other spheres: the near side. A convex body that was just left cannot be met again, nor one that coincides.
   Crossing entry{};
   const auto settle = [&](const LeafSphere& sphere) {
+    if (scene.are_coincident(sphere.id, ray.from)) return;
     const auto crossing = entry_into(ray, norm, sphere.center, sphere.radius);
     if (crossing && take({sphere.id, Meeting::entry, crossing->t})) entry = *crossing;
   };
@@ -136,7 +138,7 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
   return sphere_hit(sphere, best.surface, t, normal);
 }
 
-bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light_index, const Region& region) noexcept {
+bool is_shut_off(const Scene& scene, std::size_t light_index, const Region& region) noexcept {
   // A plane blocks exactly if the light is on its other side.
   for (std::size_t i = 0; i != scene.data().planes.size(); ++i) {
     if (scene.light_side(light_index, i) == -region.side_of(i)) return true;
@@ -149,7 +151,11 @@ bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light_inde
   for (const SurfaceId id : region.walls()) {
     if (!holds(placement.enclosing, id) && !holds(placement.touching, id)) return true;
   }
+  return false;
+}
 
+bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light_index, const Region& region) noexcept {
+  if (is_shut_off(scene, light_index, region)) return true;
   const Light& light = scene.data().lights[light_index];
   const double end = light.kind == LightKind::point ? 1 : std::numeric_limits<double>::infinity();
   if (is_squarable(dot(to_light.direction, to_light.direction))) {

@@ -14,6 +14,10 @@ namespace tessera::render {
 /// distances go to the lowest surface.
 std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region& region) noexcept;
 
+/// Whether light number `light` reaches no point of a path in `region`, wherever that is: one of the two is behind a
+/// plane or within a sphere, and the other is not.
+bool is_shut_off(const Scene& scene, std::size_t light, const Region& region) noexcept;
+
 /// Whether a surface stands between the start of `to_light` and light number `light`.
 /// units:   to_light.direction reaches a point light at t = 1; for a directional light any length > 0
 bool is_occluded(const Scene& scene, const Ray& to_light, std::size_t light, const Region& region) noexcept;

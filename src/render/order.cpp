@@ -128,10 +128,7 @@ int compare(const Scene& scene, const Ray& ray, const Candidate& a, const Candid
 }
 
 bool coincide(const Scene& scene, const Candidate& a, const Candidate& b) noexcept {
-  if (a.meeting != b.meeting || !scene.is_sphere(a.surface) || !scene.is_sphere(b.surface)) return false;
-  const Sphere& left = scene.sphere(a.surface);
-  const Sphere& right = scene.sphere(b.surface);
-  return left.center == right.center && left.radius == right.radius;
+  return a.meeting == b.meeting && scene.are_coincident(a.surface, b.surface);
 }
 
 }  // namespace

@@ -14,10 +14,7 @@ Region::Region(const Scene& scene, const Placement& placement, const Vec3& eye, 
   }
   std::sort(enclosing_.begin(), enclosing_.end());
   for (const SurfaceId id : enclosing_) {
-    const auto coincides = [&](SurfaceId wall) {
-      return scene.sphere(wall).center == scene.sphere(id).center &&
-             scene.sphere(wall).radius == scene.sphere(id).radius;
-    };
+    const auto coincides = [&](SurfaceId wall) { return coincide(scene.sphere(wall), scene.sphere(id)); };
     if (std::none_of(walls_.begin(), walls_.end(), coincides)) walls_.push_back(id);
   }
 

@@ -25,19 +25,12 @@ Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(ke
 
 Placement Scene::placement_of(const Vec3& point) const {
   Placement placement;
-  const auto place = [&](const LeafSphere& sphere) {
+  const auto holds_point = [&](const Box& box) { return box.contains(point); };
+  visit_where(holds_point, [&](const LeafSphere& sphere) {
     const int side = side_of(point, sphere.center, sphere.radius);
     if (side < 0) placement.enclosing.push_back(sphere.id);
     if (side == 0) placement.touching.push_back(sphere.id);
-  };
-  if (kernel_ == Kernel::tree) {
-    bvh_.visit_at(point, place);
-  } else {
-    for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
-      const Sphere& sphere = data_.spheres[i];
-      if (sphere.radius > 0) place({sphere.center, sphere.radius, surface_id(i)});
-    }
-  }
+  });
   for (std::size_t i = 0; i != data_.planes.size(); ++i) {
     if (side_of(point, data_.planes[i]) == 0) placement.touching.push_back(plane_id(i));
   }

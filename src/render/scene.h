@@ -35,6 +35,10 @@ class Scene {
   const Vec3& unit_normal(SurfaceId plane) const noexcept { return plane_normals_[index_of(plane) - sphere_count()]; }
   SurfaceId plane_id(std::size_t plane) const noexcept { return surface_id(sphere_count() + plane); }
 
+  bool are_coincident(SurfaceId a, SurfaceId b) const noexcept {
+    return is_sphere(a) && is_sphere(b) && coincide(sphere(a), sphere(b));
+  }
+
   /// The surfaces that matter at a point light; none for a directional one.
   const Placement& light_placement(std::size_t light) const noexcept { return light_placements_[light]; }
 
@@ -52,6 +56,16 @@ class Scene {
     for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
       const Sphere& sphere = data_.spheres[i];
       if (sphere.radius > 0 && visit(LeafSphere{sphere.center, sphere.radius, surface_id(i)})) return;
+    }
+  }
+
+  /// Calls visit(sphere) for every sphere that may lie in a region of space that `meets(box)` knows.
+  template <class Meets, class Visit>
+  void visit_where(Meets&& meets, Visit&& visit) const {
+    if (kernel_ == Kernel::tree) return bvh_.visit_where(meets, visit);
+    for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
+      const Sphere& sphere = data_.spheres[i];
+      if (sphere.radius > 0) visit(LeafSphere{sphere.center, sphere.radius, surface_id(i)});
     }
   }
 

@@ -40,6 +40,11 @@ struct Checker {
   double size = 1;  ///< side of a cell, world units, > 0
 };
 
+/// Whether two spheres are the same but for their material; of these only the first is ever seen.
+inline bool coincide(const Sphere& a, const Sphere& b) noexcept {
+  return a.center == b.center && a.radius == b.radius;
+}
+
 /// Which cells of a checker board; even where there is no board.
 enum class Cell : std::uint8_t { even, odd };
 

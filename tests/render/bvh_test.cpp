@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(slab_test_takes_rays_through_corners_and_edges) {
   BOOST_TEST(SlabTest({.origin = {-1, 0, 0.5}, .direction = {1, 1, 0}}).entry(box, kInf) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(visit_at_finds_every_sphere_around_a_point) {
+BOOST_AUTO_TEST_CASE(visit_where_finds_every_sphere_around_a_point) {
   Random random(33);
   for (const SceneKind& kind : scene_kinds()) {
     const SceneData scene = random_scene(kind, 34);
@@ -177,7 +177,8 @@ BOOST_AUTO_TEST_CASE(visit_at_finds_every_sphere_around_a_point) {
     for (int i = 0; i != 500; ++i) {
       const Vec3 point = kind.center + random.in_box(kind.size);
       std::set<std::size_t> visited;
-      bvh.visit_at(point, [&](const LeafSphere& sphere) { visited.insert(index_of(sphere.id)); });
+      bvh.visit_where([&](const Box& box) { return box.contains(point); },
+                      [&](const LeafSphere& sphere) { visited.insert(index_of(sphere.id)); });
       for (std::size_t s = 0; s != scene.spheres.size(); ++s) {
         const Sphere& sphere = scene.spheres[s];
         lost += sphere.radius > 0 && length(sphere.center - point) <= sphere.radius && !visited.contains(s);

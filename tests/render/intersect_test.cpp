@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "render/random.h"
 #include "render/scene_fixture.h"
 
 using namespace tessera::render;
@@ -144,6 +145,28 @@ BOOST_AUTO_TEST_CASE(ray_through_the_contact_of_two_spheres_hits_the_first) {
   BOOST_TEST((hit->surface == surface_id(0)));
   BOOST_TEST(hit->t == 5);
   BOOST_TEST((hit->normal == Vec3{-1, 0, 0}));
+}
+
+// Left along a tangent from a rounded point, the other of two coincident spheres would be met at once.
+BOOST_AUTO_TEST_CASE(sphere_that_coincides_with_the_one_left_is_not_met) {
+  Random random(45);
+  int met = 0;
+  int hidden = 0;
+  for (int i = 0; i != 2000; ++i) {
+    SceneData data;
+    const Vec3 center = random.in_box(1);
+    add_sphere(data, center, 0.3);
+    add_sphere(data, center, 0.3);
+    const Scene scene(data, Kernel::tree);
+    const Vec3 normal = random.direction();
+    const Ray leaving{center + 0.3 * normal, random.perpendicular_to(normal), surface_id(0), normal};
+    const Region outside = region_at(scene, center + normal, normal);
+    met += nearest_hit(scene, leaving, outside).has_value();
+    data.lights = {{LightKind::point, leaving.origin + leaving.direction, kWhite}};
+    hidden += is_occluded(Scene(data, Kernel::tree), leaving, 0, outside);
+  }
+  BOOST_TEST(met == 0);
+  BOOST_TEST(hidden == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -52,8 +52,9 @@ QuadTracer::QuadTracer(const SceneData& scene, const Vec3& eye, const Vec3& dire
 std::optional<Quad> QuadTracer::distance_to(std::size_t surface, const QuadRay& ray) const {
   if (surface < scene_.spheres.size()) {
     const Sphere& sphere = scene_.spheres[surface];
-    if (!(sphere.radius > 0) || (surface == ray.from && !inside_[surface])) return std::nullopt;
-    if (surface == ray.from) {
+    const bool is_own = surface == ray.from || (ray.from != kNone && coincide(surface, ray.from));
+    if (!(sphere.radius > 0) || (is_own && !inside_[surface])) return std::nullopt;
+    if (is_own) {
       return 2 * Quad(sphere.radius) * quad_dot(ray.from_normal, ray.direction) /
              quad_dot(ray.direction, ray.direction);
     }
@@ -74,11 +75,16 @@ std::optional<Quad> QuadTracer::distance_to(std::size_t surface, const QuadRay& 
   return t > 0 ? t : 0;
 }
 
+bool QuadTracer::coincide(std::size_t a, std::size_t b) const {
+  const std::size_t spheres = scene_.spheres.size();
+  return a < spheres && b < spheres && render::coincide(scene_.spheres[a], scene_.spheres[b]);
+}
+
 std::optional<QuadHit> QuadTracer::nearest(const QuadRay& ray) const {
   std::optional<QuadHit> best;
   for (std::size_t i = 0; i != scene_.spheres.size() + scene_.planes.size(); ++i) {
     const std::optional<Quad> t = distance_to(i, ray);
-    if (t && (!best || *t < best->t)) best = QuadHit{i, *t, {}, {}};
+    if (t && (!best || (*t < best->t && !coincide(i, best->surface)))) best = QuadHit{i, *t, {}, {}};
   }
   if (!best) return best;
   best->point = ray.origin + best->t * ray.direction;

@@ -43,6 +43,7 @@ class QuadTracer {
   };
 
   std::optional<Quad> distance_to(std::size_t surface, const QuadRay& ray) const;
+  bool coincide(std::size_t a, std::size_t b) const;
   std::optional<QuadHit> nearest(const QuadRay& ray) const;
   bool is_blocked(const QuadRay& ray, const Light& light) const;
   bool is_lit(const QuadHit& hit, const Light& light, RayCounts& counts) const;
