@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/path_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/intersect.h"
+#include "render/plane.h"
+#include "render/power.h"
+#include "render/sphere.h"
+
+namespace tessera::render {
+namespace {
+
+constexpr double u = kUnitRoundoff;
+/// What a few operations may round a unit vector or a cosine by.
+constexpr double kRounding = 16 * u;
+/// For the second order of what is treated as linear.
+constexpr double kGrowth = 1.01;
+/// Beyond this the second order matters.
+constexpr double kLargest = 0x1p-10;
+
+/// The ray in a length of direction that can be squared, as nearest_hit() takes it.
+Ray squarable(Ray ray) {
+  int exponent = 0;
+  ray.direction = rescaled(ray.direction, exponent);
+  return ray;
+}
+
+bool holds(const std::vector<SurfaceId>& ids, SurfaceId id) {
+  return std::binary_search(ids.begin(), ids.end(), id);
+}
+
+double largest_channel(const Rgb& c) {
+  return std::max({c.r, c.g, c.b});
+}
+
+}  // namespace
+
+void PathError::on_hit(const PathVertex& vertex) {
+  if (!is_certified_) return;
+  const bool is_sphere = scene_.is_sphere(vertex.hit.surface);
+  const std::optional<Arrival> arrival = !is_sphere                              ? arrival_at_plane(vertex)
+                                         : vertex.hit.surface == vertex.ray.from ? arrival_at_own_exit(vertex)
+                                                                                 : arrival_at_sphere(vertex);
+  if (!arrival) return give_up();
+  check_first(vertex.ray, vertex.hit.surface, arrival->latest);
+  if (!is_sphere) check_cell(scene_.plane(vertex.hit.surface), vertex.hit.point, arrival->position_error);
+
+  const double k = vertex.material.reflection;
+  place_ = {vertex.hit.surface, vertex.hit.point,        vertex.normal,           normalized(-vertex.ray.direction),
+            &vertex.material,   (1 - k) * vertex.weight, arrival->position_error, arrival->normal_error,
+            direction_error_};
+  remaining_weight_ = k * vertex.weight;
+  ++vertices_;
+  add(scene_.data().environment.ambient * (vertex.material.ambient * vertex.material.color), {});
+
+  position_error_ = arrival->position_error;
+  direction_error_ = arrival->mirrored_error;
+}
+
+void PathError::on_miss(const Ray& ray, double) {
+  if (is_certified_) check_first(ray, SurfaceId::none, std::numeric_limits<double>::infinity());
+}
+
+double PathError::bound() const noexcept {
+  if (!is_certified_) return std::numeric_limits<double>::infinity();
+  // Each term is a product of few factors, one of them a product of the mirrors before it; each sum is of such terms.
+  const double lights = static_cast<double>(scene_.data().lights.size());
+  const double roundings = (32 + lights + 4 * vertices_) * u;
+  const Rgb radiance = radiance_ + remaining_weight_ * scene_.data().environment.background;
+  const double bound = largest_channel(error_ + roundings * radiance) + std::numeric_limits<double>::min();
+  return bound >= 0 ? bound : std::numeric_limits<double>::infinity();
+}
+
+// The line may be off by `shift` near the hit, and so the hit by shift / cosine, at the flattest angle within reach.
+std::optional<PathError::Arrival> PathError::arrival_at_sphere(const PathVertex& vertex) {
+  const Ray ray = squarable(vertex.ray);
+  const DirectionNorm norm = norm_of(ray.direction);
+  const auto& [center, radius, material] = scene_.sphere(vertex.hit.surface);
+  const bool is_inside = region_.is_inside(vertex.hit.surface);
+  const Passage passage = passage_of(ray, norm, center, radius);
+  const double rounding =
+      half_chord(passage).error / (radius * norm.length) + kRounding + kRounding * u * length(passage.f.hi) / radius;
+  const double cosine = std::abs(dot(vertex.normal, ray.direction)) / norm.length - rounding - kRounding;
+  if (!(cosine > 0) || direction_error_ > kLargest * cosine) return std::nullopt;
+
+  const std::optional<Crossing> crossing =
+      is_inside ? std::optional(exit_from(ray, norm, center, radius)) : entry_into(ray, norm, center, radius);
+  if (!crossing) return std::nullopt;
+  const double distance = crossing->t.value * norm.length;
+  const double shift = kGrowth * (position_error_ + direction_error_ * distance);
+  const double relative = shift / radius;
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const double flattest_squared = cosine * cosine - 2 * sine * relative - relative * relative;
+  if (!(flattest_squared > cosine * cosine / 4)) return std::nullopt;
+  const double along = kGrowth * shift / std::sqrt(flattest_squared);
+  if (along > kLargest * radius) return std::nullopt;
+
+  Arrival arrival;
+  arrival.normal_error = along / radius + rounding;
+  arrival.position_error = radius * arrival.normal_error + 2 * u * (radius + length(vertex.hit.point));
+  arrival.latest = distance + along + crossing->t.error * norm.length;
+  arrival.mirrored_error = direction_error_ + 2 * arrival.normal_error + kRounding;
+  if (is_inside) inner_run_ = {arrival.normal_error + arrival.mirrored_error, 0};
+  return arrival;
+}
+
+// Within one sphere normal and direction turn by the same angle from hit to hit, in the plane of both. Errors a and b
+// that they begin with have grown to at most (1 + 4m)(a + b) after m hits: in the plane by twice the angle's error a
+// hit, across it because N_m = p N_0 + q D_0 with |p| <= 1 + 2m, |q| <= 2m (|sin 2mx| <= 2m |sin x|). Every hit adds
+// roundings, which grow on.
+std::optional<PathError::Arrival> PathError::arrival_at_own_exit(const PathVertex& vertex) {
+  const double radius = scene_.sphere(vertex.hit.surface).radius;
+  const double m = ++inner_run_.count;
+  const double error = kGrowth * (1 + 4 * m) * inner_run_.start_error + 2 * kRounding * m * (1 + 2 * m);
+  if (!(error < kLargest)) return std::nullopt;
+  const double distance = vertex.hit.t * length(vertex.ray.direction);
+  Arrival arrival;
+  arrival.normal_error = error;
+  arrival.position_error = radius * error + 2 * u * (radius + length(vertex.hit.point));
+  arrival.latest = distance + own_chord_error(radius);
+  arrival.mirrored_error = error;
+  return arrival;
+}
+
+std::optional<PathError::Arrival> PathError::arrival_at_plane(const PathVertex& vertex) {
+  const Ray ray = squarable(vertex.ray);
+  const double length_of_direction = length(ray.direction);
+  const double cosine = std::abs(dot(vertex.normal, ray.direction)) / length_of_direction - kRounding;
+  if (!(cosine > 0) || direction_error_ > kLargest * cosine) return std::nullopt;
+
+  const std::size_t index = index_of(vertex.hit.surface) - scene_.sphere_count();
+  const auto t = distance_to(scene_.plane(vertex.hit.surface), ray, region_.side_of(index));
+  if (!t) return std::nullopt;
+  const double distance = t->value * length_of_direction;
+  const double along = kGrowth * (position_error_ + direction_error_ * distance) / cosine;
+  const double late = t->error * length_of_direction;
+
+  Arrival arrival;
+  arrival.normal_error = kRounding;
+  arrival.position_error = along + late + 4 * u * (length(ray.origin) + distance);
+  arrival.latest = distance + along + late;
+  arrival.mirrored_error = direction_error_ + 2 * kRounding + kRounding;
+  return arrival;
+}
+
+/// How far off the length of a chord may be that starts at the last hit.
+double PathError::own_chord_error(double radius) const noexcept {
+  return 2 * kGrowth * radius * (place_.normal_error + direction_error_ + kRounding);
+}
+
+// A camera ray is exact, and so is what it meets first.
+void PathError::check_first(const Ray& ray, SurfaceId hit, double latest) {
+  if (position_error_ == 0 && direction_error_ == 0) return;
+  const Vec3 direction = normalized(ray.direction);
+  const Tube tube(ray.origin, direction, latest, kGrowth * position_error_, kGrowth * direction_error_);
+  const auto is_other = [&](SurfaceId id) {
+    return id != hit && id != ray.from && !scene_.are_coincident(id, hit) && !scene_.are_coincident(id, ray.from);
+  };
+
+  scene_.visit_where([&](const Box& box) { return tube.may_meet(box); },
+                     [&](const LeafSphere& sphere) {
+                       if (!is_other(sphere.id) || region_.is_inside(sphere.id)) return;
+                       if (!tube.surely_passes(sphere.center, sphere.radius)) give_up();
+                     });
+  for (const SurfaceId id : region_.walls()) {
+    const Sphere& wall = scene_.sphere(id);
+    if (is_other(id) && !tube.surely_stays_in(wall.center, wall.radius)) give_up();
+    if (id == ray.from && id != hit) {
+      const double chord = 2 * wall.radius * std::abs(dot(ray.from_normal, direction));
+      if (!(chord - own_chord_error(wall.radius) > latest)) give_up();
+    }
+  }
+  for (std::size_t i = 0; i != scene_.data().planes.size(); ++i) {
+    const SurfaceId id = scene_.plane_id(i);
+    if (!is_other(id)) continue;
+    if (!tube.surely_stays_beside(scene_.plane(id).point, scene_.unit_normal(id), region_.side_of(i))) give_up();
+  }
+}
+
+void PathError::check_cell(const Plane& plane, const Vec3& point, double position_error) {
+  if (!plane.checker) return;
+  const CheckerAxes axes(plane);
+  const Vec3 offset = point - plane.point;
+  const double error = kGrowth * position_error + kRounding * length(offset);
+  for (const Vec3& axis : {axes.u, axes.v}) {
+    const double way = dot(offset, axis);
+    if (std::floor((way - error) / plane.checker->size) != std::floor((way + error) / plane.checker->size)) give_up();
+  }
+}
+
+void PathError::on_light(std::size_t index, bool is_lit) {
+  const Light& light = scene_.data().lights[index];
+  if (!is_certified_ || light.color == Rgb{}) return;
+  if (!scene_.is_sphere(place_.surface)) {
+    const std::size_t plane = index_of(place_.surface) - scene_.sphere_count();
+    if (scene_.light_side(index, plane) != region_.side_of(plane)) return;
+  }
+
+  // The way to the light, and how far its direction may be off.
+  const bool is_point = light.kind == LightKind::point;
+  const Vec3 way = is_point ? light.vector - place_.point : -light.vector;
+  const Vec3 to_light = normalized(way);
+  const double distance = is_point ? length(way) : std::numeric_limits<double>::infinity();
+  if (!(place_.position_error < kLargest * distance)) return give_up();
+  const double way_error = kGrowth * place_.position_error / distance + kRounding;
+
+  const double n_l = dot(place_.normal, to_light);
+  const double n_l_error = place_.normal_error + way_error + kRounding;
+  if (std::abs(n_l) <= n_l_error) return give_up();
+  if (n_l < 0 || is_shut_off(scene_, index, region_)) return;
+  check_shadow(index, is_lit, to_light, distance, way_error);
+  if (!is_lit) return;
+
+  const Material& material = *place_.material;
+  const Highlight highlight = highlight_of(to_light, n_l, n_l_error, way_error);
+  const auto reflected = [&](double diffuse, double specular) {
+    return light.color * (material.diffuse * diffuse * material.color + material.specular * specular * Rgb{1, 1, 1});
+  };
+  add(reflected(n_l, highlight.value), reflected(n_l_error, highlight.error));
+}
+
+void PathError::check_shadow(std::size_t index, bool is_lit, const Vec3& to_light, double distance, double way_error) {
+  const Light& light = scene_.data().lights[index];
+  const Placement& placement = scene_.light_placement(index);
+  const double rounded_end = light.kind == LightKind::point ? 2 * u * distance : 0;
+  const Tube tube(place_.point, to_light, distance, kGrowth * place_.position_error + rounded_end, 0);
+  bool is_surely_blocked = false;
+  bool is_surely_free = true;
+  scene_.visit_where([&](const Box& box) { return tube.may_meet(box); },
+                     [&](const LeafSphere& sphere) {
+                       if (sphere.id == place_.surface || region_.is_inside(sphere.id)) return;
+                       if (scene_.are_coincident(sphere.id, place_.surface)) return;
+                       if (holds(placement.touching, sphere.id)) {
+                         // It blocks where the light is on its far side.
+                         const double depth = dot(light.vector - sphere.center, to_light) / sphere.radius;
+                         if (depth < -2 * way_error) return;
+                         is_surely_free = false;
+                         is_surely_blocked = is_surely_blocked || depth > 2 * way_error;
+                         return;
+                       }
+                       if (tube.surely_passes(sphere.center, sphere.radius)) return;
+                       is_surely_free = false;
+                       is_surely_blocked = is_surely_blocked || tube.surely_enters(sphere.center, sphere.radius);
+                     });
+  if (is_lit ? !is_surely_free : !is_surely_blocked) give_up();
+}
+
+PathError::Highlight PathError::highlight_of(const Vec3& to_light, double n_l, double n_l_error, double way_error) {
+  const Material& material = *place_.material;
+  if (material.specular == 0) return {};
+  double cosine = 0;
+  double error = 0;
+  if (shade_ == Shade::phong) {
+    const double n_v = dot(place_.normal, place_.to_viewer);
+    cosine = 2 * n_l * n_v - dot(to_light, place_.to_viewer);
+    const double n_v_error = place_.normal_error + place_.direction_error + kRounding;
+    error = 2 * (n_l_error + n_v_error) + way_error + place_.direction_error + kRounding;
+  } else {
+    const Vec3 sum = to_light + place_.to_viewer;
+    cosine = dot(place_.normal, normalized(sum));
+    error = place_.normal_error + 2 * (way_error + place_.direction_error + kRounding) / length(sum) + kRounding;
+  }
+  const double most = cosine + kGrowth * error;
+  const double least = cosine - kGrowth * error;
+  if (!(most > 0)) return {};
+  const auto raised = [&](double base) { return power(std::clamp(base, 0.0, 1.0), material.shininess); };
+  const double highest = raised(most);
+  const double lowest = least > 0 ? raised(least) : 0;
+  return {cosine > 0 ? raised(cosine) : 0, highest - lowest + (16 + 2 * material.shininess) * u * highest};
+}
+
+void PathError::add(const Rgb& term, const Rgb& error) {
+  radiance_ += place_.weight * term;
+  error_ += place_.weight * error;
+}
+
+}  // namespace tessera::render
