@@ -159,6 +159,10 @@ void add_accuracy_options(CLI::App& app, RenderOptions& options) {
       "trace in quad precision by brute force: for small scenes");
   group->add_option("--signature", options.signature, "write what each pixel saw and what lit it, for compare")
       ->type_name("FILE");
+  group
+      ->add_option("--error", options.error,
+                   "write a bound on the error of each pixel's linear channels, inf where an edge may be off: .pfm")
+      ->type_name("FILE");
 }
 
 void add_report_options(CLI::App& app, RenderOptions& options) {

@@ -44,6 +44,7 @@ struct RenderOptions {
   render::Tracer tracer = render::Tracer::fast;
 
   std::optional<std::filesystem::path> signature;
+  std::optional<std::filesystem::path> error;
   std::optional<std::filesystem::path> stats;       ///< "-" is stdout
   std::optional<std::filesystem::path> tile_stats;  ///< "-" is stdout
   ProgressStyle progress = ProgressStyle::automatic;

@@ -25,7 +25,7 @@ struct JobHeader {
   scheduler::MasterRole master;
   render::Tracer tracer;
   Layers layers;
-  std::uint8_t unused[2];
+  std::uint8_t unused;
 };
 static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 36);
 
@@ -39,7 +39,8 @@ static_assert(std::is_trivially_copyable_v<TileHeader> && sizeof(TileHeader) == 
 /// Bytes that a tile delivers.
 std::size_t delivery_size(std::size_t pixels, render::PixelFormat format, Layers layers) {
   const std::size_t signature_size = layers.signatures ? sizeof(render::Signature) : 0;
-  return sizeof(TileHeader) + pixels * (bytes_per_pixel(format) + signature_size);
+  const std::size_t error_size = layers.errors ? sizeof(float) : 0;
+  return sizeof(TileHeader) + pixels * (bytes_per_pixel(format) + signature_size + error_size);
 }
 
 }  // namespace
@@ -105,11 +106,14 @@ scheduler::Bytes TileWork::operator()(scheduler::TaskId task, const std::functio
   scheduler::Bytes delivered(delivery_size(tile.pixels(), format_, layers_));
   const auto colors = std::span(delivered).subspan(sizeof(TileHeader), tile.pixels() * bytes_per_pixel(format_));
   std::vector<render::Signature> signatures(layers_.signatures ? tile.pixels() : 0);
-  const auto counts = renderer_.render(tile, {colors, signatures}, between_slices);
+  std::vector<float> errors(layers_.errors ? tile.pixels() : 0);
+  const auto counts = renderer_.render(tile, {colors, signatures, errors}, between_slices);
   const TileHeader header{counts.shadow, counts.mirror};
   std::memcpy(delivered.data(), &header, sizeof header);
-  const auto bytes = std::as_bytes(std::span(signatures));
-  std::copy(bytes.begin(), bytes.end(), colors.data() + colors.size());
+  std::byte* layer = colors.data() + colors.size();
+  for (const auto bytes : {std::as_bytes(std::span(signatures)), std::as_bytes(std::span(errors))}) {
+    layer = std::copy(bytes.begin(), bytes.end(), layer);
+  }
   return delivered;
 }
 
@@ -117,6 +121,7 @@ Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
     : image_(job.area.width, job.area.height, job.format),
       signatures_{job.area.width, job.area.height,
                   std::vector<render::Signature>(job.layers.signatures ? job.area.pixels() : 0)},
+      errors_(job.layers.errors ? job.area.pixels() : 0),
       layers_(job.layers),
       area_(job.area),
       samples_(job.scene.image.samples),
@@ -136,8 +141,10 @@ void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered
   const std::byte* layer = delivered.data() + sizeof header;
   layer = place(tile, bytes_per_pixel(image_.format), layer, image_.bytes.data());
   if (layers_.signatures) {
-    place(tile, sizeof(render::Signature), layer, std::as_writable_bytes(std::span(signatures_.pixels)).data());
+    const auto to = std::as_writable_bytes(std::span(signatures_.pixels));
+    layer = place(tile, sizeof(render::Signature), layer, to.data());
   }
+  if (layers_.errors) place(tile, sizeof(float), layer, std::as_writable_bytes(std::span(errors_)).data());
 }
 
 const std::byte* Mosaic::place(const render::Rect& tile, std::size_t pixel_size, const std::byte* from,

@@ -20,6 +20,7 @@ namespace tessera::app {
 /// What the tiles bring home besides colours.
 struct Layers {
   bool signatures = false;
+  bool errors = false;
 };
 
 /// All that a rank must know to render; rank 0 reads it and sends it to the others.
@@ -73,6 +74,8 @@ class Mosaic {
   const render::Image& image() const noexcept { return image_; }
   /// Without pixels where the job does not ask for them.
   const render::SignatureImage& signatures() const noexcept { return signatures_; }
+  /// The error bound of each pixel, row by row from the top; empty where the job does not ask for it.
+  std::span<const float> errors() const noexcept { return errors_; }
   /// Rays of each tile.
   std::span<const render::RayCounts> rays() const noexcept { return rays_; }
 
@@ -82,6 +85,7 @@ class Mosaic {
 
   render::Image image_;
   render::SignatureImage signatures_;
+  std::vector<float> errors_;
   Layers layers_;
   render::Rect area_;
   std::uint64_t samples_;

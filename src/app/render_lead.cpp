@@ -13,6 +13,7 @@
 #include "app/version.h"
 #include "io/error.h"
 #include "io/image_file.h"
+#include "io/pfm.h"
 #include "io/scene_reader.h"
 #include "io/signature_file.h"
 #include "render/camera.h"
@@ -68,6 +69,12 @@ RenderLead::RenderLead(const RenderOptions& options, std::string command_line, c
   if (format == io::ImageFormat::pfm && options.bits == 16) {
     throw UsageError("--bits does not go with .pfm (its channels are 32-bit floats)");
   }
+  if (options.error && io::image_format_of(*options.error) != io::ImageFormat::pfm) {
+    throw UsageError("--error: \"" + options.error->string() + "\" must end in .pfm (bounds are floats)");
+  }
+  if (options.error && options.tracer == render::Tracer::reference) {
+    throw UsageError("--error does not go with --reference (it bounds how far a picture is from that one)");
+  }
   job_.format = io::pixel_format_for(format, options.bits == 16 ? io::BitDepth::sixteen : io::BitDepth::eight);
 
   const scheduler::Stopwatch read;
@@ -117,7 +124,7 @@ void RenderLead::read_scene() {
 void RenderLead::plan_schedule() {
   job_.kernel = options_.kernel;
   job_.tracer = options_.tracer;
-  job_.layers = {options_.signature.has_value()};
+  job_.layers = {options_.signature.has_value(), options_.error.has_value()};
   job_.tile_width = options_.tile.width;
   job_.tile_height = options_.tile.height;
   job_.policy = options_.policy;
@@ -137,10 +144,12 @@ void RenderLead::open_outputs() {
   refuse_shared_names({{"INPUT", options_.input},
                        {"-o", options_.output},
                        {"--signature", options_.signature},
+                       {"--error", options_.error},
                        {"--stats", options_.stats},
                        {"--tile-stats", options_.tile_stats}});
   picture_.emplace(options_.output);
   if (options_.signature) signature_file_.emplace(*options_.signature);
+  if (options_.error) error_file_.emplace(*options_.error);
   if (options_.stats) stats_file_.emplace(*options_.stats);
   if (options_.tile_stats) tile_stats_file_.emplace(*options_.tile_stats);
 }
@@ -151,16 +160,18 @@ void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tile
   const auto format = format_of(options_.output);
   picture_->write(io::encode_image(format, mosaic.image(), job_.scene.image.transfer, {{"Software", "Tessera"}}));
   if (signature_file_) signature_file_->write(io::encode_signatures(mosaic.signatures()));
+  if (error_file_) error_file_->write(io::encode_pfm(job_.area.width, job_.area.height, mosaic.errors()));
   stats_.time_s.write = write.seconds();
   stats_.time_s.render = run.makespan_s;
   stats_.time_s.total = total.seconds();
 
-  fill_stats(stats_, job_, team_, tiles, mosaic.rays(), run);
+  fill_stats(stats_, job_, team_, tiles, mosaic, run);
   if (stats_file_) stats_file_->write(to_json(stats_));
   if (tile_stats_file_) tile_stats_file_->write(tile_stats_csv(tile_rows(tiles, mosaic.rays(), run)));
   // No file gets its name before all of them are written.
   picture_->commit();
   if (signature_file_) signature_file_->commit();
+  if (error_file_) error_file_->commit();
   if (stats_file_) stats_file_->commit();
   if (tile_stats_file_) tile_stats_file_->commit();
   if (options_.quiet) return;

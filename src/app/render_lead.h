@@ -46,6 +46,7 @@ class RenderLead {
   std::vector<std::string> notes_;
   std::optional<io::OutputFile> picture_;
   std::optional<io::OutputFile> signature_file_;
+  std::optional<io::OutputFile> error_file_;
   std::optional<TextOutput> stats_file_;
   std::optional<TextOutput> tile_stats_file_;
 };

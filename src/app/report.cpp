@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <thread>
 
@@ -38,6 +39,18 @@ void print_ranks(const io::Stats& stats, bool all) {
   }
 }
 
+io::Stats::Error summary_of(std::span<const float> bounds) {
+  io::Stats::Error error;
+  for (const float bound : bounds) {
+    if (std::isfinite(bound)) {
+      error.largest = std::max(error.largest, static_cast<double>(bound));
+    } else {
+      ++error.uncertified;
+    }
+  }
+  return error;
+}
+
 /// A person who renders on one core of several may not know that there is more to have.
 void print_unused_cores(const io::Stats& stats, const RenderOptions& options) {
   const unsigned cores = std::thread::hardware_concurrency();
@@ -49,7 +62,8 @@ void print_unused_cores(const io::Stats& stats, const RenderOptions& options) {
 }  // namespace
 
 void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::span<const render::Rect> tiles,
-                std::span<const render::RayCounts> rays, const scheduler::RunRecord& run) {
+                const Mosaic& mosaic, const scheduler::RunRecord& run) {
+  const std::span<const render::RayCounts> rays = mosaic.rays();
   const render::SceneData& scene = job.scene;
   stats.scene = {scene.spheres.size(), scene.planes.size(), scene.lights.size(), scene.materials.size()};
   stats.image = {job.area.width, job.area.height, scene.image.samples, scene.image.max_bounces};
@@ -73,6 +87,7 @@ void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::s
   stats.balance = {balance.imbalance, balance.load_balance,   balance.efficiency,
                    balance.tail_s,    balance.graham_bound_s, balance.makespan_s};
   stats.messages = {run.messages.count, run.messages.bytes};
+  if (job.layers.errors) stats.error = summary_of(mosaic.errors());
 }
 
 std::vector<io::TileRow> tile_rows(std::span<const render::Rect> tiles, std::span<const render::RayCounts> rays,
@@ -100,6 +115,10 @@ void print_report(const io::Stats& stats, const RenderOptions& options) {
                "load balance: efficiency %.1f %%, imbalance %.1f %%, tail %s, makespan %s (Graham's bound %s)\n",
                100 * stats.balance.efficiency, 100 * stats.balance.imbalance, duration(stats.balance.tail_s).c_str(),
                duration(stats.balance.makespan_s).c_str(), duration(stats.balance.graham_bound_s).c_str());
+  if (stats.error) {
+    std::fprintf(stderr, "error: at most %.2g of a linear channel, %" PRIu64 " pixel%s uncertified\n",
+                 stats.error->largest, stats.error->uncertified, stats.error->uncertified == 1 ? "" : "s");
+  }
   const auto& t = stats.time_s;
   std::fprintf(stderr, "time: read %s, broadcast %s, build %s, render %s, write %s, total %s\n",
                duration(t.read).c_str(), duration(t.broadcast).c_str(), duration(t.build).c_str(),

@@ -21,9 +21,9 @@ struct Team {
 };
 
 /// Fills in all but version, command and times.
-/// shapes:  tiles, rays and run.tasks run in parallel
+/// shapes:  tiles, the mosaic's rays and run.tasks run in parallel
 void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::span<const render::Rect> tiles,
-                std::span<const render::RayCounts> rays, const scheduler::RunRecord& run);
+                const Mosaic& mosaic, const scheduler::RunRecord& run);
 
 /// One row per tile.
 std::vector<io::TileRow> tile_rows(std::span<const render::Rect> tiles, std::span<const render::RayCounts> rays,

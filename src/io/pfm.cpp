@@ -35,20 +35,29 @@ std::endian byte_order_of(std::string_view scale, const std::string& name) {
   return value < 0 ? std::endian::little : std::endian::big;
 }
 
-}  // namespace
-
-std::string encode_pfm(const render::Image& image) {
-  if (image.format != render::PixelFormat::rgb32f) throw std::invalid_argument("a PFM holds float pixels");
-  std::string bytes = "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+std::string encode(const char* magic, std::uint32_t width, std::uint32_t height, std::span<const std::byte> pixels) {
+  std::string bytes = std::string(magic).append("\n").append(std::to_string(width)).append(" ");
+  bytes.append(std::to_string(height)).append("\n-1.0\n");
   const std::size_t header = bytes.size();
-  const std::size_t row = image.width * bytes_per_pixel(image.format);
-  bytes.resize(header + row * image.height);
-  for (std::size_t y = 0; y < image.height; ++y) {
-    const std::byte* from = image.bytes.data() + (image.height - 1 - y) * row;
+  const std::size_t row = pixels.size() / height;
+  bytes.resize(header + pixels.size());
+  for (std::size_t y = 0; y < height; ++y) {
+    const std::byte* from = pixels.data() + (height - 1 - y) * row;
     char* to = bytes.data() + header + y * row;
     for (std::size_t i = 0; i < row; i += kSample) copy_sample(to + i, from + i, std::endian::little);
   }
   return bytes;
+}
+
+}  // namespace
+
+std::string encode_pfm(const render::Image& image) {
+  if (image.format != render::PixelFormat::rgb32f) throw std::invalid_argument("a PFM holds float pixels");
+  return encode("PF", image.width, image.height, image.bytes);
+}
+
+std::string encode_pfm(std::uint32_t width, std::uint32_t height, std::span<const float> pixels) {
+  return encode("Pf", width, height, std::as_bytes(pixels));
 }
 
 render::Image decode_pfm(std::string_view bytes, const std::string& name) {

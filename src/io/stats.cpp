@@ -77,6 +77,10 @@ toml::table to_table(const Stats::Messages& messages) {
   return toml::table{{"count", count(messages.count)}, {"bytes", count(messages.bytes)}};
 }
 
+toml::table to_table(const Stats::Error& error) {
+  return toml::table{{"largest", error.largest}, {"uncertified", count(error.uncertified)}};
+}
+
 }  // namespace
 
 std::string to_json(const Stats& stats) {
@@ -85,19 +89,20 @@ std::string to_json(const Stats& stats) {
   toml::array ranks;
   for (const Stats::Rank& rank : stats.ranks) ranks.push_back(to_table(rank));
 
-  const toml::table all{{"schema", stats.schema},
-                        {"version", stats.version},
-                        {"command", stats.command},
-                        {"scene", to_table(stats.scene)},
-                        {"image", to_table(stats.image)},
-                        {"mpi", to_table(stats.mpi)},
-                        {"schedule", to_table(stats.schedule)},
-                        {"time_s", to_table(stats.time_s)},
-                        {"rays", to_table(stats.rays)},
-                        {"skipped", std::move(skipped)},
-                        {"ranks", std::move(ranks)},
-                        {"balance", to_table(stats.balance)},
-                        {"messages", to_table(stats.messages)}};
+  toml::table all{{"schema", stats.schema},
+                  {"version", stats.version},
+                  {"command", stats.command},
+                  {"scene", to_table(stats.scene)},
+                  {"image", to_table(stats.image)},
+                  {"mpi", to_table(stats.mpi)},
+                  {"schedule", to_table(stats.schedule)},
+                  {"time_s", to_table(stats.time_s)},
+                  {"rays", to_table(stats.rays)},
+                  {"skipped", std::move(skipped)},
+                  {"ranks", std::move(ranks)},
+                  {"balance", to_table(stats.balance)},
+                  {"messages", to_table(stats.messages)}};
+  if (stats.error) all.insert("error", to_table(*stats.error));
   std::ostringstream json;
   json << toml::json_formatter(all) << "\n";
   return json.str();

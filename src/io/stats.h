@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -73,6 +74,10 @@ struct Stats {
     std::uint64_t count = 0;
     std::uint64_t bytes = 0;
   };
+  struct Error {
+    double largest = 0;             ///< bound on a linear channel's error, over all certified pixels
+    std::uint64_t uncertified = 0;  ///< pixels with a decision that rounding might have flipped
+  };
 
   std::uint32_t schema = 1;
   std::string version;
@@ -87,6 +92,7 @@ struct Stats {
   std::vector<Rank> ranks;
   Balance balance;
   Messages messages;
+  std::optional<Error> error;  ///< left out where it was not asked for
 };
 
 /// One JSON object, keys in alphabetical order, ending in a newline. A double that isn't finite becomes the string

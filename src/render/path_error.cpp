@@ -57,6 +57,7 @@ void PathError::on_hit(const PathVertex& vertex) {
   add(scene_.data().environment.ambient * (vertex.material.ambient * vertex.material.color), {});
 
   position_error_ = arrival->position_error;
+  line_error_ = arrival->line_error;
   direction_error_ = arrival->mirrored_error;
 }
 
@@ -74,7 +75,13 @@ double PathError::bound() const noexcept {
   return bound >= 0 ? bound : std::numeric_limits<double>::infinity();
 }
 
-// The line may be off by `shift` near the hit, and so the hit by shift / cosine, at the flattest angle within reach.
+/// How far off the line may be at a distance from its origin.
+double PathError::shift_at(double distance) const noexcept {
+  return kGrowth * (line_error_ + direction_error_ * (distance + position_error_));
+}
+
+// The hit is off by shift / cosine along the surface, of which cosine / 1 is across the mirrored ray. Within the limit
+// on that the cosine itself changes by less than 1 %.
 std::optional<PathError::Arrival> PathError::arrival_at_sphere(const PathVertex& vertex) {
   const Ray ray = squarable(vertex.ray);
   const DirectionNorm norm = norm_of(ray.direction);
@@ -90,17 +97,15 @@ std::optional<PathError::Arrival> PathError::arrival_at_sphere(const PathVertex&
       is_inside ? std::optional(exit_from(ray, norm, center, radius)) : entry_into(ray, norm, center, radius);
   if (!crossing) return std::nullopt;
   const double distance = crossing->t.value * norm.length;
-  const double shift = kGrowth * (position_error_ + direction_error_ * distance);
-  const double relative = shift / radius;
-  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  const double flattest_squared = cosine * cosine - 2 * sine * relative - relative * relative;
-  if (!(flattest_squared > cosine * cosine / 4)) return std::nullopt;
-  const double along = kGrowth * shift / std::sqrt(flattest_squared);
-  if (along > kLargest * radius) return std::nullopt;
+  const double shift = shift_at(distance);
+  const double along = kGrowth * shift / cosine;
+  if (along > kLargest * radius * cosine) return std::nullopt;
 
   Arrival arrival;
   arrival.normal_error = along / radius + rounding;
-  arrival.position_error = radius * arrival.normal_error + 2 * u * (radius + length(vertex.hit.point));
+  const double rounded = radius * rounding + 2 * u * (radius + length(vertex.hit.point));
+  arrival.position_error = along + rounded;
+  arrival.line_error = kGrowth * shift + rounded;
   arrival.latest = distance + along + crossing->t.error * norm.length;
   arrival.mirrored_error = direction_error_ + 2 * arrival.normal_error + kRounding;
   if (is_inside) inner_run_ = {arrival.normal_error + arrival.mirrored_error, 0};
@@ -120,6 +125,7 @@ std::optional<PathError::Arrival> PathError::arrival_at_own_exit(const PathVerte
   Arrival arrival;
   arrival.normal_error = error;
   arrival.position_error = radius * error + 2 * u * (radius + length(vertex.hit.point));
+  arrival.line_error = arrival.position_error;
   arrival.latest = distance + own_chord_error(radius);
   arrival.mirrored_error = error;
   return arrival;
@@ -135,12 +141,15 @@ std::optional<PathError::Arrival> PathError::arrival_at_plane(const PathVertex& 
   const auto t = distance_to(scene_.plane(vertex.hit.surface), ray, region_.side_of(index));
   if (!t) return std::nullopt;
   const double distance = t->value * length_of_direction;
-  const double along = kGrowth * (position_error_ + direction_error_ * distance) / cosine;
+  const double shift = shift_at(distance);
+  const double along = kGrowth * shift / cosine;
   const double late = t->error * length_of_direction;
+  const double rounded = late + 4 * u * (length(ray.origin) + distance);
 
   Arrival arrival;
   arrival.normal_error = kRounding;
-  arrival.position_error = along + late + 4 * u * (length(ray.origin) + distance);
+  arrival.position_error = along + rounded;
+  arrival.line_error = kGrowth * shift + rounded;
   arrival.latest = distance + along + late;
   arrival.mirrored_error = direction_error_ + 2 * kRounding + kRounding;
   return arrival;
@@ -153,9 +162,10 @@ double PathError::own_chord_error(double radius) const noexcept {
 
 // A camera ray is exact, and so is what it meets first.
 void PathError::check_first(const Ray& ray, SurfaceId hit, double latest) {
-  if (position_error_ == 0 && direction_error_ == 0) return;
+  if (vertices_ == 0) return;
   const Vec3 direction = normalized(ray.direction);
-  const Tube tube(ray.origin, direction, latest, kGrowth * position_error_, kGrowth * direction_error_);
+  const Tube tube(ray.origin - position_error_ * direction, direction, latest + position_error_, kGrowth * line_error_,
+                  kGrowth * direction_error_);
   const auto is_other = [&](SurfaceId id) {
     return id != hit && id != ray.from && !scene_.are_coincident(id, hit) && !scene_.are_coincident(id, ray.from);
   };

@@ -13,9 +13,10 @@ namespace tessera::render {
 
 /// Bounds how far rounding has taken a path's radiance from that of the same camera ray in exact arithmetic.
 ///
-/// Along the path it carries how far the origin and the direction of the ray may be off. A hit on a sphere of radius r
-/// at distance T and angle theta turns a displacement D = position + T direction of the line into D / (r cos theta) of
-/// the normal; a mirror adds twice that to the direction. Reflections within one sphere grow linearly instead. Every
+/// Along the path it carries how far the ray's line and its direction may be off. A hit on a sphere of radius r at
+/// distance T and angle theta turns a displacement D = line + T direction of the line into D / cos theta of the hit and
+/// D / (r cos theta) of the normal; a mirror adds twice the latter to the direction and leaves the line D off, as a
+/// mirror image would be. Reflections within one sphere grow linearly instead. Every
 /// decision of the path is asked whether any line within these errors could decide otherwise: the first surface, the
 /// cell of a board, each light's side and shadow. If one could, the pixel is uncertified and the bound infinite, for an
 /// edge may lie between the two.
@@ -41,6 +42,7 @@ class PathError final : public PathObserver {
   /// What is known of a hit.
   struct Arrival {
     double position_error = 0;
+    double line_error = 0;      ///< of a ray mirrored there, across its direction
     double normal_error = 0;    ///< of the unit normal
     double mirrored_error = 0;  ///< of the direction of a ray mirrored there
     double latest = 0;          ///< the distance from the ray's origin is at most this
@@ -70,6 +72,7 @@ class PathError final : public PathObserver {
   std::optional<Arrival> arrival_at_sphere(const PathVertex& vertex);
   std::optional<Arrival> arrival_at_own_exit(const PathVertex& vertex);
   std::optional<Arrival> arrival_at_plane(const PathVertex& vertex);
+  double shift_at(double distance) const noexcept;
   double own_chord_error(double radius) const noexcept;
 
   void check_first(const Ray& ray, SurfaceId hit, double latest);
@@ -86,6 +89,7 @@ class PathError final : public PathObserver {
 
   bool is_certified_ = true;
   double position_error_ = 0;   ///< of the next ray's origin
+  double line_error_ = 0;       ///< the same across its direction
   double direction_error_ = 0;  ///< of its direction, relative to its length
   InnerRun inner_run_;
   Place place_;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/tile_renderer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/encode.h"
+#include "render/exact.h"
+#include "render/path_error.h"
 #include "render/reference/quad_tracer.h"
 #include "render/signature_observer.h"
 
@@ -17,6 +21,11 @@ constexpr std::uint64_t kSliceRays = 256;
 /// A ray in quad precision takes more than a slice.
 std::uint64_t slice_rays_of(Tracer tracer) {
   return tracer == Tracer::reference ? 1 : kSliceRays;
+}
+
+/// The next float above what may have been rounded down.
+float rounded_up(double error) {
+  return std::nextafter(static_cast<float>(error), std::numeric_limits<float>::infinity());
 }
 
 Rgb rounded(const reference::QuadVec& color) {
@@ -51,6 +60,7 @@ RayCounts TileRenderer::render(const Rect& tile, const TilePixels& out,
       encode_pixel(seen.color, format_, scene_.data().image.transfer, color);
       color += bytes_per_pixel(format_);
       if (!out.signatures.empty()) out.signatures[index] = seen.signature;
+      if (!out.errors.empty()) out.errors[index] = rounded_up(seen.error);
       if (counts.total() >= slice_end) {
         between_slices();
         slice_end = counts.total() + slice_rays;
@@ -68,7 +78,11 @@ TileRenderer::Pixel TileRenderer::pixel(std::uint32_t x, std::uint32_t y, const 
       add_sample(x + (i + 0.5) / grid_, y + (j + 0.5) / grid_, asked, pixel, counts);
     }
   }
-  pixel.color = pixel.color * (1.0 / (static_cast<double>(grid_) * grid_));
+  const double samples = static_cast<double>(grid_) * grid_;
+  pixel.color = pixel.color * (1 / samples);
+  // The sum rounds once a sample, its share of the pixel twice more.
+  const double brightest = std::max({pixel.color.r, pixel.color.g, pixel.color.b});
+  if (samples > 1) pixel.error = pixel.error / samples + (samples + 4) * kUnitRoundoff * brightest;
   return pixel;
 }
 
@@ -91,10 +105,17 @@ void TileRenderer::add_sample(double x, double y, const TilePixels& asked, Pixel
 
 Rgb TileRenderer::traced(const Ray& ray, const Region& region, const TilePixels& asked, Pixel& pixel,
                          RayCounts& counts) const {
-  if (asked.signatures.empty()) return radiance_along(scene_, ray, region, trace_options_, counts);
-  SignatureObserver observer(pixel.signature);
-  PathObserver* const observers[] = {&observer};
-  return radiance_along(scene_, ray, region, trace_options_, counts, observers);
+  if (asked.signatures.empty() && asked.errors.empty()) {
+    return radiance_along(scene_, ray, region, trace_options_, counts);
+  }
+  SignatureObserver signature(pixel.signature);
+  PathError error(scene_, region, trace_options_.shade);
+  PathObserver* const both[] = {&signature, &error};
+  const std::span<PathObserver* const> observers = both;
+  const Rgb color = radiance_along(scene_, ray, region, trace_options_, counts,
+                                   asked.errors.empty() ? observers.first(1) : observers);
+  if (!asked.errors.empty()) pixel.error += error.bound();
+  return color;
 }
 
 }  // namespace tessera::render

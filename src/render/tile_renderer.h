@@ -29,6 +29,7 @@ enum class Tracer : std::uint8_t {
 struct TilePixels {
   std::span<std::byte> colors;
   std::span<Signature> signatures{};
+  std::span<float> errors{};  ///< bounds on the error of a linear channel, infinite where uncertified; see path_error.h
 };
 
 class TileRenderer {
@@ -37,12 +38,14 @@ class TileRenderer {
   TileRenderer(const Scene& scene, PixelFormat format, Tracer tracer = Tracer::fast);
 
   /// Renders the pixels of `tile`, in coordinates of the whole picture, and calls `between_slices` every 0.1 ms or so.
+  /// The reference knows no bound on its own error: 0.
   RayCounts render(const Rect& tile, const TilePixels& out, const std::function<void()>& between_slices) const;
 
  private:
   struct Pixel {
     Rgb color;
     Signature signature;
+    double error = 0;
   };
   Pixel pixel(std::uint32_t x, std::uint32_t y, const TilePixels& asked, RayCounts& counts) const;
   void add_sample(double x, double y, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const;

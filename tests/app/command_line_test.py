@@ -5,8 +5,10 @@
 import argparse
 import csv
 import json
+import math
 import os
 import pathlib
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -183,6 +185,24 @@ class CommandLineTest(unittest.TestCase):
         self.assertRegex(other.stdout, r"\nids +0 pixels see another surface first, [1-9]\d* meet other surfaces")
         self.assert_refused(BAD_SCENE, "compare", "fast.pfm", "fast.pfm", "--signatures", "fast.sig", "fast.pfm",
                             says=["fast.pfm", "--signature"], ranks=(0,))
+
+    def test_error_bounds_come_as_a_picture_and_a_line(self):
+        run = self.run_tessera("render", self.scene, "-o", "a.png", "--error", "bound.pfm", "--stats", "-", ranks=2)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        error = json.loads(run.stdout)["error"]
+        self.assertTrue(0 < error["largest"] < 1e-10, error)
+        self.assertRegex(run.stderr, r"error: at most \S+ of a linear channel, \d+ pixels? uncertified")
+        header, values = (self.folder / "bound.pfm").read_bytes().split(b"\n-1.0\n")
+        self.assertEqual(header, b"Pf\n40 30")
+        bounds = struct.unpack("<1200f", values)
+        self.assertEqual(max(b for b in bounds if b < math.inf), error["largest"])
+        self.assertEqual(sum(b == math.inf for b in bounds), error["uncertified"])
+        plain = self.run_tessera("render", self.scene, "-o", "b.png", "--stats", "-")
+        self.assertNotIn("error", json.loads(plain.stdout))
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        self.assert_refused(USAGE, "render", self.scene, "-o", "c.png", "--error", "c.txt", says="must end in .pfm")
+        self.assert_refused(USAGE, "render", self.scene, "-o", "c.png", "--error", "c.pfm", "--reference",
+                            says="--reference")
 
     def test_info_counts_what_is_there(self):
         run = self.run_tessera("info", self.scene)

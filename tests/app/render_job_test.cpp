@@ -2,6 +2,8 @@
 #include "app/render_job.h"
 
 #include <boost/test/unit_test.hpp>
+#include <utility>
+#include <vector>
 
 #include "app/small_job.h"
 #include "io/error.h"
@@ -21,13 +23,14 @@ BOOST_AUTO_TEST_CASE(a_job_survives_the_way_to_another_rank) {
   job.tile_height = 2;
   job.policy = scheduler::Policy::guided;
   job.master = scheduler::MasterRole::dedicated;
+  job.layers = {.signatures = true, .errors = false};
   job.prefetch = 5;
   const RenderJob copy = decode_job(encode_job(job));
   BOOST_TEST((copy.area == job.area));
   BOOST_TEST((copy.format == job.format));
   BOOST_TEST((copy.kernel == job.kernel));
   BOOST_TEST((copy.tracer == job.tracer));
-  BOOST_TEST(copy.layers.signatures);
+  BOOST_TEST((copy.layers.signatures && !copy.layers.errors));
   BOOST_TEST(copy.tile_width == 9u);
   BOOST_TEST(copy.tile_height == 2u);
   BOOST_TEST((copy.policy == job.policy));
@@ -73,16 +76,23 @@ BOOST_AUTO_TEST_CASE(layers_find_their_place_in_the_mosaic) {
     for (std::uint32_t i = 0; i != tiles.size(); ++i) {
       mosaic.accept(scheduler::TaskId{i}, work(scheduler::TaskId{i}, [] {}));
     }
-    return mosaic.signatures();
+    return std::pair(mosaic.signatures().pixels, std::vector(mosaic.errors().begin(), mosaic.errors().end()));
   };
-  const render::SignatureImage tiled = assembled();
+  const auto [tiled_signatures, tiled_errors] = assembled();
   job.tile_width = job.tile_height = 1000;
-  const render::SignatureImage whole = assembled();
-  BOOST_TEST(whole.pixels.size() == job.area.pixels());
-  BOOST_TEST((tiled.pixels == whole.pixels));
-  BOOST_TEST((whole.pixels.front() != render::Signature{} && whole.pixels.front() != whole.pixels.back()));
-  job.layers.signatures = false;
-  BOOST_TEST(assembled().pixels.empty());
+  const auto [signatures, errors] = assembled();
+  BOOST_TEST(signatures.size() == job.area.pixels());
+  BOOST_TEST(errors.size() == job.area.pixels());
+  BOOST_TEST((tiled_signatures == signatures));
+  BOOST_TEST((tiled_errors == errors));
+  BOOST_TEST((signatures.front() != render::Signature{} && signatures.front() != signatures.back()));
+  BOOST_TEST((errors.front() > 0 && errors.front() != errors.back()));
+
+  job.layers = {.signatures = false, .errors = true};
+  BOOST_TEST(assembled().first.empty());
+  BOOST_TEST((assembled().second == errors));
+  job.layers = {};
+  BOOST_TEST(assembled().second.empty());
 }
 
 BOOST_AUTO_TEST_CASE(rays_are_counted_per_tile_and_add_up_to_the_whole) {

@@ -7,6 +7,7 @@
 
 #include "app/render_job.h"
 #include "io/image_file.h"
+#include "io/pfm.h"
 #include "io/signature_file.h"
 
 // A small render that has everything a picture can depend on: mirrors, shadows, overlapping spheres, a checkered
@@ -41,7 +42,7 @@ inline RenderJob small_job() {
   RenderJob job;
   job.scene = small_scene();
   job.area = {0, 0, job.scene.image.width, job.scene.image.height};
-  job.layers.signatures = true;
+  job.layers = {.signatures = true, .errors = true};
   return job;
 }
 
@@ -75,7 +76,8 @@ inline std::vector<Sharing> all_sharings(const RenderJob& job) {
   return sharings;
 }
 
-/// The picture and the signatures that a run makes, one file after the other; `run` takes plan, work and accept.
+/// The picture, signatures and error bounds that a run makes, one file after the other; `run` takes plan, work and
+/// accept.
 template <class Run>
 std::string files_of(const RenderJob& job, const render::Scene& scene, std::uint32_t ranks, Run&& run) {
   const auto tiles = tiles_of(job, ranks);
@@ -83,7 +85,7 @@ std::string files_of(const RenderJob& job, const render::Scene& scene, std::uint
   run(plan_of(job, tiles), TileWork(scene, job, tiles),
       [&](scheduler::TaskId task, std::span<const std::byte> delivered) { mosaic.accept(task, delivered); });
   return io::encode_image(io::ImageFormat::png, mosaic.image(), job.scene.image.transfer, {}) +
-         io::encode_signatures(mosaic.signatures());
+         io::encode_signatures(mosaic.signatures()) + io::encode_pfm(job.area.width, job.area.height, mosaic.errors());
 }
 
 /// The picture that everything is compared with: one tile, one rank, nothing scheduled.

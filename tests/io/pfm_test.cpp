@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -52,6 +53,15 @@ BOOST_AUTO_TEST_CASE(reads_back_what_it_wrote) {
   BOOST_TEST(back.height == 3u);
   BOOST_TEST((back.format == PixelFormat::rgb32f));
   BOOST_TEST((back.bytes == image.bytes));
+}
+
+BOOST_AUTO_TEST_CASE(grey_is_read_back_as_three_equal_channels) {
+  const std::vector<float> grey{1, 2, 3, 4, 5, std::numeric_limits<float>::infinity()};
+  const Image back = decode_pfm(encode_pfm(3, 2, grey), "a.pfm");
+  BOOST_TEST(back.width == 3u);
+  BOOST_TEST(back.height == 2u);
+  const std::vector<float> samples = samples_of(back);
+  for (std::size_t i = 0; i != samples.size(); ++i) BOOST_TEST(samples[i] == grey[i / 3]);
 }
 
 BOOST_AUTO_TEST_CASE(is_little_endian_with_the_bottom_row_first) {
