@@ -49,8 +49,10 @@ class Verdict {
     check(wrong == 0 && tried > 0, text);
   }
 
- private:
+  /// Something measured that there is no bound for.
   void note(const std::string& text) { measured_ += (measured_.empty() ? "" : "; ") + text; }
+
+ private:
   void check(bool holds, const std::string& text) {
     passes_ = passes_ && holds;
     BOOST_TEST(holds, "case " << number_ << ": " << text);
