@@ -257,8 +257,8 @@ Command parse_command_line(int argc, const char* const* argv) {
     throw UsageError("unknown command \"" + word + "\"" + io::did_you_mean(word, {"render", "compare", "info"}) +
                      " (see tessera --help)");
   }
-  if (compare_app.parsed() && (std::isnan(compare.tolerance) || compare.tolerance < 0))
-    throw UsageError("--tolerance must be a number >= 0");
+  if (compare_app.parsed() && (!std::isfinite(compare.tolerance) || compare.tolerance < 0))
+    throw UsageError("--tolerance must be a finite number >= 0");
   if (compare_app.parsed()) return compare;
   if (info_app.parsed()) return info;
   if (!render_app.parsed())

@@ -110,6 +110,7 @@ BOOST_AUTO_TEST_CASE(counts_must_be_whole_numbers) {
     }
   }
   BOOST_TEST(contains(complaint({"compare", "a.png", "b.png", "--tolerance", "nan"}), "--tolerance"));
+  BOOST_TEST(contains(complaint({"compare", "a.png", "b.png", "--tolerance", "inf"}), "--tolerance"));
 }
 
 BOOST_AUTO_TEST_CASE(a_crop_must_be_four_numbers_of_a_non_empty_part) {
