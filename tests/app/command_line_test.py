@@ -2,25 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the program as its users do, with and without mpirun: pictures, exit codes, messages, and no hang."""
 
-import argparse
 import csv
 import json
 import math
-import os
 import pathlib
 import struct
 import subprocess
-import tempfile
-import unittest
 
-TESSERA = ""
-SCENES = pathlib.Path()
-TIME_LIMIT_S = 60
-# Root in a container, and no complaints of mpirun's own about what a container hides.
-ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                            "HWLOC_HIDE_ERRORS": "2"}
-
-USAGE, BAD_SCENE, INPUT_MISSING, CANNOT_CREATE, IO_FAILURE = 64, 65, 66, 73, 74
+import running_program
+from running_program import BAD_SCENE, CANNOT_CREATE, INPUT_MISSING, IO_FAILURE, TIME_LIMIT_S, USAGE
 
 SMALL_SCENE = """
 [image]
@@ -43,40 +33,10 @@ normal = [0, 0, 1]
 """
 
 
-class CommandLineTest(unittest.TestCase):
+class CommandLineTest(running_program.ProgramTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.scene = self.write("small.toml", SMALL_SCENE)
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
-    def run_tessera(self, *words, ranks=0):
-        """Runs the program, under mpirun where ranks > 0. A hang fails the test by its time limit."""
-        launcher = ["mpirun", "-n", str(ranks), "--oversubscribe"] if ranks else []
-        return subprocess.run([*launcher, TESSERA, *map(str, words)], cwd=self.folder, env=ENVIRONMENT,
-                              capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False)
-
-    def own_lines(self, run):
-        """What the program itself wrote to stderr, without mpirun's words."""
-        return [line for line in run.stderr.splitlines() if line.startswith("tessera:")]
-
-    def assert_refused(self, code, *words, says, ranks=(0, 3)):
-        """One line from rank 0, this exit code, nothing on stdout, no file left."""
-        before = set(self.folder.iterdir())
-        for count in ranks:
-            with self.subTest(ranks=count, words=words):
-                run = self.run_tessera(*words, ranks=count)
-                self.assertEqual(run.returncode, code, run.stderr)
-                self.assertEqual(len(self.own_lines(run)), 1, run.stderr)
-                for part in [says] if isinstance(says, str) else says:
-                    self.assertIn(part, self.own_lines(run)[0])
-                self.assertEqual(run.stdout, "")
-                self.assertEqual(set(self.folder.iterdir()), before)
 
     def bad_scene(self, text, says, name="bad.toml"):
         self.assert_refused(BAD_SCENE, "render", self.write(name, text), "-o", "out.png", says=says, ranks=(0,))
@@ -111,7 +71,7 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual(header, (20).to_bytes(4, "big") + (10).to_bytes(4, "big"))
 
     def test_every_scene_of_the_collection_renders(self):
-        for scene in sorted(SCENES.glob("*.toml")):
+        for scene in sorted(pathlib.Path(self.scenes).glob("*.toml")):
             with self.subTest(scene=scene.name):
                 run = self.run_tessera("render", scene, "-r", "32x24", "-o", "scene.png", ranks=2)
                 self.assertEqual(run.returncode, 0, run.stderr)
@@ -245,7 +205,7 @@ class CommandLineTest(unittest.TestCase):
 
     def test_a_full_standard_output_is_an_error(self):
         with open("/dev/full", "w") as full:
-            run = subprocess.run([TESSERA, "info", self.scene], stdout=full, stderr=subprocess.PIPE, text=True,
+            run = subprocess.run([self.tessera, "info", self.scene], stdout=full, stderr=subprocess.PIPE, text=True,
                                  timeout=TIME_LIMIT_S, check=False)
         self.assertEqual((run.returncode, len(self.own_lines(run))), (IO_FAILURE, 1))
 
@@ -286,9 +246,4 @@ class CommandLineTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--tessera", required=True, help="the program")
-    parser.add_argument("--scenes", required=True, help="folder of the scene collection")
-    arguments, rest = parser.parse_known_args()
-    TESSERA, SCENES = arguments.tessera, pathlib.Path(arguments.scenes)
-    unittest.main(argv=[__file__, *rest])
+    running_program.main(__doc__, scenes="folder of the scene collection")
