@@ -128,34 +128,6 @@ BOOST_AUTO_TEST_CASE(case_21_mirror_shows_the_front_of_its_neighbour) {
   verdict.none_wrong("reflections", wrong, tried);
 }
 
-// Along any ray to the centre the outer shell comes first, and from within the inner one.
-BOOST_AUTO_TEST_CASE(case_23_concentric_shells) {
-  Verdict verdict(23, "outside the outer wins, inside the inner");
-  Random random(23);
-  std::size_t wrong = 0;
-  std::size_t tried = 0;
-  for (int k = 1; k <= 16; ++k) {
-    const double r = random.uniform(0.5, 1);
-    const double larger = k < 16 ? r * (1 + std::pow(10.0, -k)) : std::nextafter(r, 2);
-    for (const bool inner_first : {false, true}) {
-      SceneData data;
-      add_sphere(data, {0.25, 0, 0}, inner_first ? r : larger);
-      add_sphere(data, {0.25, 0, 0}, inner_first ? larger : r);
-      const Scene scene(data, Kernel::tree);
-      const std::size_t inner = inner_first ? 0 : 1;
-      for (int i = 0; i != 500; ++i) {
-        const Vec3 away = random.direction();
-        const auto out = hit_from(scene, Vec3{0.25, 0, 0} + 3 * away, 0.3 * random.direction() - away);
-        if (out) wrong += index_of(out->surface) != 1 - inner;
-        const auto in = hit_from(scene, Vec3{0.25, 0, 0} + 0.4 * away, random.direction());
-        wrong += !in || index_of(in->surface) != inner;
-        tried += out ? 2u : 1u;
-      }
-    }
-  }
-  verdict.none_wrong("rays", wrong, tried);
-}
-
 BOOST_AUTO_TEST_CASE(case_24_of_coincident_spheres_the_first_is_seen) {
   Verdict verdict(24, "lowest index, for every tree and from both sides");
   Random random(24);
@@ -193,80 +165,6 @@ BOOST_AUTO_TEST_CASE(case_25_ten_spheres_deep_in_overlap) {
     check.trace(eye, i % 2 == 0 ? random.direction() : random.in_box(1) - eye);
   }
   verdict.none_wrong("rays", check.wrong, check.tried);
-}
-
-// Rays through corners and edges of the boxes around spheres, along the axes with both zeros and across them.
-BOOST_AUTO_TEST_CASE(case_43_rays_through_box_corners) {
-  Verdict verdict(43, "no hit lost");
-  Random random(43);
-  std::size_t wrong = 0;
-  std::size_t tried = 0;
-  for (const double offset : {0.0, 1e2, 1e6}) {
-    SceneData data;
-    for (int i = 0; i != 300; ++i) {
-      const Vec3 grid{std::floor(random.uniform(-5, 5)), std::floor(random.uniform(-5, 5)),
-                      std::floor(random.uniform(-5, 5))};
-      add_sphere(data, grid + Vec3{offset, offset, offset}, 0.5);
-    }
-    const Scene tree = prepared(data);
-    const Scene brute = prepared(data, Kernel::brute);
-    for (int i = 0; i != 3000; ++i) {
-      const Sphere& aim = tree.sphere(surface_id(random.below(300)));
-      const auto side = [&] { return (static_cast<double>(random.below(3)) - 1) * aim.radius; };
-      const Vec3 corner = aim.center + Vec3{side(), side(), side()};
-      const double zero = random.flip() ? 0.0 : -0.0;
-      const Vec3 axes[] = {{1, zero, zero}, {zero, -1, zero}, {-zero, zero, 1}, {1, 1, zero}, {1, -1, 1}};
-      const Vec3 direction = axes[random.below(5)];
-      const Vec3 eye = corner - 24 * aim.radius * direction;
-      const auto a = hit_from(tree, eye, direction);
-      const auto b = hit_from(brute, eye, direction);
-      ++tried;
-      wrong += a.has_value() != b.has_value() || (a && (a->surface != b->surface || a->t != b->t));
-    }
-  }
-  verdict.none_wrong("rays", wrong, tried);
-}
-
-// The point of a hit, and the mirror ray from there: the sphere itself is not met again, a neighbour that all but
-// touches is not lost.
-BOOST_AUTO_TEST_CASE(case_45_leaving_a_surface) {
-  Verdict verdict(45, "no false self-hit, no neighbour lost at a gap of 1e-12");
-  Random random(45);
-  std::size_t self = 0;
-  std::size_t lost = 0;
-  std::size_t tried = 0;
-  const int scenes = scaled_count(400);
-  for (int i = 0; i != scenes; ++i) {
-    const double r = random.over_decades(1e-8, 1e8);
-    const Vec3 center = r * random.in_box(random.over_decades(1, 1e3));
-    const Vec3 axis = random.direction();
-    SceneData data;
-    add_sphere(data, center, r);
-    add_sphere(data, center + (2 + 1e-12) * r * axis, r);
-    const Scene scene = prepared(data);
-    const Sphere& own = scene.sphere(surface_id(0));
-    for (int k = 0; k != 500; ++k) {
-      const Vec3 away = random.direction();
-      const Vec3 eye = own.center + 5 * own.radius * away;
-      // A third of the rays graze, a third all but touch.
-      const double depth = k % 3 == 1 ? random.over_decades(1e-15, 1e-3) : 0x1p-53 * random.below(8);
-      const Vec3 aim = k % 3 == 0 ? random.in_box(0.7) : (1 - depth) * random.perpendicular_to(away);
-      const Vec3 direction = own.center + own.radius * aim - eye;
-      const Region region = region_at(scene, eye, direction);
-      const auto hit = nearest_hit(scene, {.origin = eye, .direction = direction}, region);
-      if (!hit) continue;
-      const Vec3 leaving = direction - 2 * dot(hit->normal, direction) * hit->normal;
-      const auto next = nearest_hit(scene, {hit->point, leaving, hit->surface, hit->normal}, region);
-      self += next && next->surface == hit->surface;
-      // From the point that faces the neighbour, straight at it.
-      const auto neighbour =
-          nearest_hit(scene, {own.center + own.radius * axis, axis + 0.5 * away, surface_id(0), axis}, region);
-      lost += dot(away, axis) > 0 && (!neighbour || index_of(neighbour->surface) != 1);
-      ++tried;
-    }
-  }
-  verdict.none_wrong("self-hits", self, tried);
-  verdict.none_wrong("neighbours lost", lost, tried);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

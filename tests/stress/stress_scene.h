@@ -25,10 +25,20 @@ inline Scene prepared(const SceneData& data, Kernel kernel = Kernel::tree) {
   return Scene(unit_scaled(data), kernel);
 }
 
-/// `count` times TESSERA_STRESS_SCALE, a whole number that is 1 where it is not set.
+/// A whole number from the environment, 1 or more, or `otherwise`.
+inline int whole_number_of(const char* variable, int otherwise) {
+  const char* text = std::getenv(variable);
+  return text != nullptr ? std::max(1, std::atoi(text)) : otherwise;
+}
+
+/// `count` times TESSERA_STRESS_SCALE, 1 where it is not set.
 inline int scaled_count(int count) {
-  const char* scale = std::getenv("TESSERA_STRESS_SCALE");
-  return count * std::max(1, scale != nullptr ? std::atoi(scale) : 1);
+  return count * whole_number_of("TESSERA_STRESS_SCALE", 1);
+}
+
+/// The seed of a case: another one for each TESSERA_STRESS_PART, so that parts of a long run repeat nothing.
+inline std::uint64_t seed_of(int number) {
+  return static_cast<std::uint64_t>(number + 1000 * whole_number_of("TESSERA_STRESS_PART", 0));
 }
 
 /// The radiances of a small square picture, row by row.
