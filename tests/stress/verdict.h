@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cstddef>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -18,8 +19,10 @@ class Verdict {
   Verdict(const Verdict&) = delete;
   Verdict& operator=(const Verdict&) = delete;
 
-  /// Appends "number, criterion, measured, pass" between tabs to the file that TESSERA_STRESS_TABLE names.
+  /// Appends "number, criterion, measured, pass" between tabs to the file that TESSERA_STRESS_TABLE names. A case that
+  /// an exception ends has not passed, whatever it measured before.
   ~Verdict() {
+    passes_ = passes_ && std::uncaught_exceptions() == 0;
     BOOST_TEST_MESSAGE("case " << number_ << ": " << criterion_ << ": " << measured_);
     if (const char* table = std::getenv("TESSERA_STRESS_TABLE")) {
       std::ofstream(table, std::ios::app)
