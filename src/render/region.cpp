@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/region.h"
 
+#include <tuple>
+
 #include "render/decide.h"
 #include "render/plane.h"
 
@@ -13,10 +15,17 @@ Region::Region(const Scene& scene, const Placement& placement, const Vec3& eye, 
     if (scene.is_sphere(surface) && enters(surface)) enclosing_.push_back(surface);
   }
   std::sort(enclosing_.begin(), enclosing_.end());
-  for (const SurfaceId id : enclosing_) {
-    const auto coincides = [&](SurfaceId wall) { return coincide(scene.sphere(wall), scene.sphere(id)); };
-    if (std::none_of(walls_.begin(), walls_.end(), coincides)) walls_.push_back(id);
-  }
+  // Of coincident spheres the first is the wall: put them side by side, for there may be very many.
+  const auto place_of = [&](SurfaceId id) {
+    const Sphere& sphere = scene.sphere(id);
+    return std::tuple(sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius);
+  };
+  walls_ = enclosing_;
+  std::sort(walls_.begin(), walls_.end(),
+            [&](auto a, auto b) { return std::tuple(place_of(a), a) < std::tuple(place_of(b), b); });
+  walls_.erase(std::unique(walls_.begin(), walls_.end(), [&](auto a, auto b) { return scene.are_coincident(a, b); }),
+               walls_.end());
+  std::sort(walls_.begin(), walls_.end());
 
   for (const Plane& plane : scene.data().planes) {
     int side = render::side_of(eye, plane);

@@ -120,4 +120,21 @@ BOOST_AUTO_TEST_CASE(placement_agrees_with_exact_arithmetic) {
   BOOST_TEST(touching > 500U);
 }
 
+// Half a million about one centre, each twice: work that grew with the square of their number would take many minutes.
+BOOST_AUTO_TEST_CASE(of_very_many_coincident_spheres_around_the_eye_the_first_are_walls) {
+  constexpr std::size_t kCount = 500000;
+  SceneData data;
+  add_material(data, matte());
+  for (std::size_t i = 0; i != 2 * kCount; ++i) {
+    data.spheres.push_back({{0.25, 0, 0}, 1 + static_cast<double>(i % kCount * 7919 % kCount), MaterialIndex{0}});
+  }
+  const Scene scene(data, Kernel::brute);
+  const Region region = region_at(scene, {0.25, 0.5, 0}, {1, 0, 0});
+  BOOST_TEST(region.is_inside(surface_id(2 * kCount - 1)));
+  BOOST_TEST_REQUIRE(region.walls().size() == kCount);
+  for (std::size_t i = 0; i != kCount; ++i) {
+    if (region.walls()[i] != surface_id(i)) BOOST_ERROR("wall " << i);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
