@@ -58,7 +58,26 @@ FLAT = SCENE.replace("fov = 40", "height = 3")
 FLAKE = SCENE + '[generate]\nkind = "sphereflake"\nlevel = 1\ncenter = [0, 0, 0]\nradius = 1\n'
 CLOUD = SCENE + '[generate]\nkind = "cloud"\ncount = 5\nseed = 1\nfill = 0.1\ncenter = [0, 0, 0]\nscale = 1\n'
 TABLE = SCENE + "[[spheres]]\nfile = \"FILE\"\n"
+TACHYON = """BEGIN_SCENE
+RESOLUTION 8 6
+CAMERA ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH 2
+CENTER 0 0 -5
+VIEWDIR 0 0 1
+UPDIR 0 1 0 END_CAMERA
+BACKGROUND 0 0 0
+LIGHT CENTER 3 3 -5 RAD 0.1 COLOR 1 1 1
+DIRECTIONAL_LIGHT DIRECTION 1 1 1 COLOR 1 1 1
+SPHERE CENTER 0 0 0 RAD 1
+TEXTURE AMBIENT 0.1 DIFFUSE 0.9 SPECULAR 0 OPACITY 1 COLOR 1 1 1 TEXFUNC 0
+PLANE CENTER 0 -1 0 NORMAL 0 1 0
+TEXTURE AMBIENT 0.1 DIFFUSE 0.9 SPECULAR 0 OPACITY 1 COLOR 1 1 1 TEXFUNC 0
+END_SCENE
+"""
 COLUMNS = ["x", "y", "z", "radius", "red", "green", "blue"]
+
+
+def is_number(word):
+    return word.lstrip("-").replace(".", "").isdigit()
 
 
 def with_line(scene, line, text):
@@ -84,6 +103,14 @@ def with_bad_numbers(scene, bad):
             yield with_line(scene, line, f"{key} = [{changed}]" if "[" in value else f"{key} = {changed}"), line, key
 
 
+def with_bad_words(scene, bad):
+    """(scene, line) for each number of a Tachyon scene in turn, replaced by each of `bad`."""
+    for line, text in enumerate(scene.splitlines(), 1):
+        words = text.split()
+        for at, word in itertools.product(filter(lambda i: is_number(words[i]), range(len(words))), bad):
+            yield with_line(scene, line, " ".join([*words[:at], word, *words[at + 1:]])), line
+
+
 class RefusalCases(running_program.ProgramTest):
     def setUp(self):
         super().setUp()
@@ -100,10 +127,13 @@ class RefusalCases(running_program.ProgramTest):
             self.wrong.append(f"{ranks} ranks, {' '.join(map(str, words))}, expected {code} {says}: "
                               f"{run.returncode} {run.stderr.strip()}")
 
-    def refused(self, text, line, key, ranks=(0,)):
-        scene = self.write("bad.toml", text)
+    def refused(self, text, line, key, ranks=(0,), name="bad.toml"):
+        scene = self.write(name, text)
         for count in ranks:
-            self.look(count, BAD_SCENE, ["render", scene, "-o", "out.png"], [f"bad.toml:{line}:", key])
+            self.look(count, BAD_SCENE, ["render", scene, "-o", "out.png"], [f"{name}:{line}:", key])
+
+    def tachyon_refused(self, old, new, line, key):
+        self.refused(TACHYON.replace(old, new), line, key, name="bad.dat")
 
     def table_refused(self, name, content, says, ranks=(0,)):
         """As INPUT, and named by a scene."""
@@ -133,8 +163,9 @@ class RefusalCases(running_program.ProgramTest):
                            sum(self.tried.values()))
 
     def test_the_scene_itself_renders(self):
-        for scene in (SCENE, FLAT, FLAKE, CLOUD):
-            run = self.run_tessera("render", self.write("good.toml", scene), "-o", "out.png", "-q")
+        scenes = [("good.toml", scene) for scene in (SCENE, FLAT, FLAKE, CLOUD)] + [("good.dat", TACHYON)]
+        for name, scene in scenes:
+            run = self.run_tessera("render", self.write(name, scene), "-o", "out.png", "-q")
             self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_case_13_zero_directions_and_numbers_that_are_not_finite(self):
@@ -151,6 +182,13 @@ class RefusalCases(running_program.ProgramTest):
                 for text, line, key in with_bad_numbers(scene, NOT_FINITE):
                     if key in own and (scene == FLAT or line > len(SCENE.splitlines())):
                         self.refused(text, line, key)
+            for text, line in with_bad_words(TACHYON, NOT_FINITE):
+                self.refused(text, line, "", name="bad.dat")
+            # What a camera lacks is found at its end and named where it begins.
+            self.tachyon_refused("VIEWDIR 0 0 1", "VIEWDIR 0 0 0", 3, "view direction")
+            self.tachyon_refused("UPDIR 0 1 0", "UPDIR 0 0 0", 3, "up")
+            self.tachyon_refused("DIRECTION 1 1 1", "DIRECTION 0 0 0", 9, "direction")
+            self.tachyon_refused("NORMAL 0 1 0", "NORMAL 0 0 0", 12, "normal")
             for column, word in itertools.product(range(len(COLUMNS)), [*NOT_FINITE, "1e999"]):
                 self.text_table_refused(column, word, ranks=(0, 2) if (column, word) == (1, "nan") else (0,))
             for column, word in itertools.product(range(4), NOT_FINITE):
@@ -170,6 +208,7 @@ class RefusalCases(running_program.ProgramTest):
                 ranks = (0, 2) if word == "-1" else (0,)
                 self.refused(with_line(SCENE, line, f"radius = {word}"), line, "radius", ranks)
                 self.text_table_refused(3, word)
+                self.tachyon_refused("RAD 1\n", f"RAD {word}\n", 10, "")
                 self.binary_table_refused(3, float(word), ranks)
             self.report(verdict)
 
@@ -181,6 +220,8 @@ class RefusalCases(running_program.ProgramTest):
                 self.refused(text, line_of(SCENE, "up"), "parallel", ranks=(0, 2) if up == "[0, 4, -2]" else (0,))
             text = with_line(SCENE, line_of(SCENE, "target"), "target = [0, -4, 2]")
             self.refused(text, line_of(SCENE, "eye"), "same point", ranks=(0, 2))
+            self.tachyon_refused("UPDIR 0 1 0", "UPDIR 0 0 1", 3, "parallel")
+            self.tachyon_refused("RESOLUTION 8 6", "RESOLUTION 0 6", 2, "width")
             line = line_of(SCENE, "fov")
             for fov in ("0", "-0.0", "-1", "-1e-300", "180", "180.00000000000003", "360", "1e300"):
                 self.refused(with_line(SCENE, line, f"fov = {fov}"), line, "fov", ranks=(0, 2) if fov == "180" else (0,))
