@@ -18,11 +18,11 @@ using render::ImageDifference;
 using render::SignatureDifference;
 
 /// throws:  io::Error unless both are of one size
-template <class Picture>
-void require_one_size(const std::filesystem::path& a_name, const Picture& a, const std::filesystem::path& b_name,
-                      const Picture& b) {
+template <class A, class B>
+void require_one_size(const std::filesystem::path& a_name, const A& a, const std::filesystem::path& b_name,
+                      const B& b) {
   if (a.width == b.width && a.height == b.height) return;
-  const auto text = [](const std::filesystem::path& name, const Picture& picture) {
+  const auto text = [](const std::filesystem::path& name, const auto& picture) {
     return name.string() + " is " + std::to_string(picture.width) + "x" + std::to_string(picture.height);
   };
   throw io::Error(io::ErrorKind::bad_scene,
@@ -60,17 +60,11 @@ std::string json_members(const SignatureDifference& d) {
          ", \"other_lights\": " + std::to_string(d.lights);
 }
 
-ImageDifference compare_pictures(const CompareOptions& options) {
-  const render::Image a = io::read_image(options.a);
-  const render::Image b = io::read_image(options.b);
-  require_one_size(options.a, a, options.b, b);
-  return difference_between(a, b);
-}
-
-std::optional<SignatureDifference> compare_signatures(const CompareOptions& options) {
-  if (options.signatures.empty()) return std::nullopt;
+/// The signatures of two pictures, the first of which is `picture`.
+SignatureDifference compare_signatures(const CompareOptions& options, const render::Image& picture) {
   const render::SignatureImage a = io::read_signatures(options.signatures[0]);
   const render::SignatureImage b = io::read_signatures(options.signatures[1]);
+  require_one_size(options.a, picture, options.signatures[0], a);
   require_one_size(options.signatures[0], a, options.signatures[1], b);
   return difference_between(a, b);
 }
@@ -78,8 +72,12 @@ std::optional<SignatureDifference> compare_signatures(const CompareOptions& opti
 }  // namespace
 
 ExitCode run_compare(const CompareOptions& options) {
-  const ImageDifference picture = compare_pictures(options);
-  const std::optional<SignatureDifference> signatures = compare_signatures(options);
+  const render::Image a = io::read_image(options.a);
+  const render::Image b = io::read_image(options.b);
+  require_one_size(options.a, a, options.b, b);
+  const ImageDifference picture = difference_between(a, b);
+  std::optional<SignatureDifference> signatures;
+  if (!options.signatures.empty()) signatures = compare_signatures(options, a);
   if (options.json) {
     std::printf("{%s%s}\n", json_members(picture).c_str(), signatures ? json_members(*signatures).c_str() : "");
   } else {

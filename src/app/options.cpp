@@ -160,8 +160,10 @@ void add_accuracy_options(CLI::App& app, RenderOptions& options) {
   group->add_option("--signature", options.signature, "write what each pixel saw and what lit it, for compare")
       ->type_name("FILE");
   group
-      ->add_option("--error", options.error,
-                   "write a bound on the error of each pixel's linear channels, inf where an edge may be off: .pfm")
+      ->add_option(
+          "--error", options.error,
+          "write a bound on the error of each pixel's linear channels before they are rounded to the picture's "
+          "numbers, inf where an edge may be off: .pfm")
       ->type_name("FILE");
 }
 
@@ -229,7 +231,9 @@ Command parse_command_line(int argc, const char* const* argv) {
   compare_app.add_option("A", compare.a, "picture")->required();
   compare_app.add_option("B", compare.b, "picture to compare with")->required();
   compare_app.add_option("--tolerance", compare.tolerance, "largest difference of a channel that is fine [0]");
-  compare_app.add_option("--signatures", compare.signatures, "count the pixels that saw or were lit otherwise")
+  compare_app
+      .add_option("--signatures", compare.signatures,
+                  "count too the pixels that saw or were lit otherwise; the exit code tells of the pictures alone")
       ->expected(2)
       ->type_name("A.sig B.sig");
   compare_app.add_flag("--json", compare.json, "print JSON");

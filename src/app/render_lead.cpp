@@ -43,17 +43,18 @@ struct NamedPath {
   std::optional<std::filesystem::path> path;
 };
 
-/// One file for two things would lose one of them.
+/// One file for two things would lose one of them; so would a file for one that another is still being written to.
 void refuse_shared_names(std::initializer_list<NamedPath> paths) {
   namespace fs = std::filesystem;
   std::map<fs::path, const char*> owners;
   for (const auto& [option, path] : paths) {
     if (!path || *path == "-") continue;
     std::error_code error;
-    const fs::path file = fs::weakly_canonical(fs::absolute(*path), error);
+    const fs::path file = fs::weakly_canonical(io::destination_of(fs::absolute(*path)), error);
     if (error || (fs::exists(file, error) && !fs::is_regular_file(file, error))) continue;
-    const auto [owner, is_new] = owners.emplace(file, option);
-    if (!is_new) {
+    for (const fs::path& taken : {file, io::partial_name_of(file)}) {
+      const auto [owner, is_new] = owners.emplace(taken, option);
+      if (is_new || owner->second == option) continue;
       throw UsageError(std::string(option) + ": \"" + path->string() + "\" is " + owner->second + " as well");
     }
   }
@@ -68,6 +69,9 @@ RenderLead::RenderLead(const RenderOptions& options, std::string command_line, c
   const io::ImageFormat format = format_of(options.output);
   if (format == io::ImageFormat::pfm && options.bits == 16) {
     throw UsageError("--bits does not go with .pfm (its channels are 32-bit floats)");
+  }
+  if (options.signature && *options.signature == "-") {
+    throw UsageError("--signature: \"-\" is not a file (signatures are no text)");
   }
   if (options.error && io::image_format_of(*options.error) != io::ImageFormat::pfm) {
     throw UsageError("--error: \"" + options.error->string() + "\" must end in .pfm (bounds are floats)");

@@ -115,7 +115,10 @@ void print_report(const io::Stats& stats, const RenderOptions& options) {
                "load balance: efficiency %.1f %%, imbalance %.1f %%, tail %s, makespan %s (Graham's bound %s)\n",
                100 * stats.balance.efficiency, 100 * stats.balance.imbalance, duration(stats.balance.tail_s).c_str(),
                duration(stats.balance.makespan_s).c_str(), duration(stats.balance.graham_bound_s).c_str());
-  if (stats.error) {
+  const std::uint64_t pixels = std::uint64_t{stats.image.width} * stats.image.height;
+  if (stats.error && stats.error->uncertified == pixels) {
+    std::fprintf(stderr, "error: all pixels uncertified\n");
+  } else if (stats.error) {
     std::fprintf(stderr, "error: at most %.2g of a linear channel, %" PRIu64 " pixel%s uncertified\n",
                  stats.error->largest, stats.error->uncertified, stats.error->uncertified == 1 ? "" : "s");
   }

@@ -21,8 +21,9 @@ Error cannot(ErrorKind kind, const fs::path& path, const std::string& what, cons
   return Error(kind, path.string() + ": cannot " + what + " (" + why + ")");
 }
 
-// Where a path leads: a rename would replace a symbolic link, not what it points to.
-fs::path follow_links(fs::path path) {
+}  // namespace
+
+fs::path destination_of(fs::path path) {
   constexpr int kMostLinks = 40;  // as many as Linux follows
   std::error_code error;
   for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
@@ -31,7 +32,9 @@ fs::path follow_links(fs::path path) {
   return path;
 }
 
-}  // namespace
+fs::path partial_name_of(fs::path destination) {
+  return destination += ".part";
+}
 
 OutputFile::OutputFile(const fs::path& path) : path_(path) {
   if (path.empty()) throw Error(ErrorKind::cannot_create, "cannot create a file without a name");
@@ -42,9 +45,9 @@ OutputFile::OutputFile(const fs::path& path) : path_(path) {
   if (!path.has_filename()) throw cannot(ErrorKind::cannot_create, path_, "create", "the name ends in a slash");
 
   const bool is_plain = fs::is_regular_file(status) || !fs::exists(status);
-  target_ = is_plain ? follow_links(path) : path;
-  written_to_ = target_;
-  if (is_plain) written_to_ += ".part";
+  // A rename would replace a symbolic link, not what it points to.
+  target_ = is_plain ? destination_of(path) : path;
+  written_to_ = is_plain ? partial_name_of(target_) : target_;
   descriptor_ = ::open(written_to_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw cannot(ErrorKind::cannot_create, path_, "create", std::strerror(errno));
 }

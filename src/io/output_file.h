@@ -7,6 +7,12 @@
 // A file that appears whole or not at all.
 namespace tessera::io {
 
+/// Where a path leads, symbolic links followed, whether something is there or not.
+std::filesystem::path destination_of(std::filesystem::path path);
+
+/// The name that a file has while it is written.
+std::filesystem::path partial_name_of(std::filesystem::path destination);
+
 /// Opens NAME.part at once, so that an unwritable place is known before the work starts; commit() renames it to NAME.
 /// Until then a file that is there already stays as it is, and without a commit nothing is left behind. What is
 /// neither a plain file nor missing (a device, a pipe) is written directly.

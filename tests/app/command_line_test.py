@@ -146,6 +146,19 @@ class CommandLineTest(running_program.ProgramTest):
         self.assert_refused(BAD_SCENE, "compare", "fast.pfm", "fast.pfm", "--signatures", "fast.sig", "fast.pfm",
                             says=["fast.pfm", "--signature"], ranks=(0,))
 
+    def test_no_output_takes_the_name_of_another_that_is_being_written(self):
+        self.assert_refused(USAGE, "render", self.scene, "-o", "a.png", "--error", "b.pfm", "--signature", "b.pfm.part",
+                            says=["--error", "--signature"], ranks=(0,))
+        (self.folder / "link.pfm").symlink_to("new.pfm")
+        self.assert_refused(USAGE, "render", self.scene, "-o", "new.pfm", "--error", "link.pfm", says="-o", ranks=(0,))
+        self.assert_refused(USAGE, "render", self.scene, "-o", "a.png", "--signature", "-", says="--signature", ranks=(0,))
+
+    def test_signatures_are_those_of_the_pictures(self):
+        self.run_tessera("render", self.scene, "-o", "a.png", "--signature", "a.sig", "-q")
+        self.run_tessera("render", self.scene, "-o", "b.png", "-r", "20x10", "-q")
+        self.assert_refused(BAD_SCENE, "compare", "b.png", "b.png", "--signatures", "a.sig", "a.sig", says="a.sig",
+                            ranks=(0,))
+
     def test_error_bounds_come_as_a_picture_and_a_line(self):
         run = self.run_tessera("render", self.scene, "-o", "a.png", "--error", "bound.pfm", "--stats", "-", ranks=2)
         self.assertEqual(run.returncode, 0, run.stderr)

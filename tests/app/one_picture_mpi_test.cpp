@@ -29,11 +29,11 @@ BOOST_AUTO_TEST_CASE(every_tile_size_and_policy_gives_the_same_bytes_on_this_man
       scheduler::run_worker(transport, TileWork(scene, job, tiles));
       continue;
     }
-    const std::string png =
+    const std::string files =
         test::files_of(job, scene, session.size(), [&](const auto& plan, const auto& work, const auto& accept) {
           scheduler::run_master(transport, plan, work, accept);
         });
-    BOOST_TEST((png == reference), sharing.text());
+    BOOST_TEST((files == reference), sharing.text());
   }
 }
 

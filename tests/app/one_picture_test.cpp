@@ -9,7 +9,8 @@ using namespace tessera::app;
 
 namespace {
 
-std::string png_in_process(const RenderJob& job, const render::Scene& scene, std::uint32_t ranks, std::uint64_t seed) {
+std::string files_in_process(const RenderJob& job, const render::Scene& scene, std::uint32_t ranks,
+                             std::uint64_t seed) {
   return test::files_of(job, scene, ranks, [&](const auto& plan, const auto& work, const auto& accept) {
     scheduler::run_in_process(ranks, seed, plan, work, accept);
   });
@@ -28,7 +29,7 @@ BOOST_AUTO_TEST_CASE(every_rank_count_tile_size_policy_and_arrival_order_gives_t
     for (std::uint32_t ranks = 1; ranks <= 4; ++ranks) {
       for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         BOOST_TEST_CONTEXT(sharing.text() << ", " << ranks << " ranks, seed " << seed) {
-          BOOST_TEST((png_in_process(job, scene, ranks, seed) == reference));
+          BOOST_TEST((files_in_process(job, scene, ranks, seed) == reference));
         }
       }
     }
@@ -45,7 +46,7 @@ BOOST_AUTO_TEST_CASE(every_master_role_and_prefetch_gives_the_same_bytes) {
     for (const unsigned prefetch : {1u, 3u, 1000u}) {
       job.master = role;
       job.prefetch = prefetch;
-      BOOST_TEST((png_in_process(job, scene, 3, prefetch) == reference), name_of(role) << ", prefetch " << prefetch);
+      BOOST_TEST((files_in_process(job, scene, 3, prefetch) == reference), name_of(role) << ", prefetch " << prefetch);
     }
   }
 }
