@@ -56,6 +56,11 @@ struct Plane {
   std::optional<Checker> checker{};
 };
 
+/// Whether two planes are given alike; of these only the first is ever seen.
+inline bool coincide(const Plane& a, const Plane& b) noexcept {
+  return a.point == b.point && a.normal == b.normal;
+}
+
 enum class LightKind : std::uint8_t { point, directional };
 
 /// A light without fall-off, itself invisible.

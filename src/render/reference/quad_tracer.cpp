@@ -34,6 +34,14 @@ QuadVec towards(const Light& light, const QuadVec& point) {
   return light.kind == LightKind::point ? QuadVec(light.vector) - point : Quad(-1) * QuadVec(light.vector);
 }
 
+bool is_on(const Sphere& sphere, const QuadVec& point) {
+  const QuadVec f = QuadVec(sphere.center) - point;
+  return quad_dot(f, f) == Quad(sphere.radius) * sphere.radius;
+}
+bool is_on(const Plane& plane, const QuadVec& point) {
+  return quad_dot(plane.normal, point - QuadVec(plane.point)) == 0;
+}
+
 }  // namespace
 
 QuadTracer::QuadTracer(const SceneData& scene, const Vec3& eye, const Vec3& direction)
@@ -52,7 +60,7 @@ QuadTracer::QuadTracer(const SceneData& scene, const Vec3& eye, const Vec3& dire
 std::optional<Quad> QuadTracer::distance_to(std::size_t surface, const QuadRay& ray) const {
   if (surface < scene_.spheres.size()) {
     const Sphere& sphere = scene_.spheres[surface];
-    const bool is_own = surface == ray.from || (ray.from != kNone && coincide(surface, ray.from));
+    const bool is_own = ray.from != kNone && coincide(surface, ray.from);
     if (!(sphere.radius > 0) || (is_own && !inside_[surface])) return std::nullopt;
     if (is_own) {
       return 2 * Quad(sphere.radius) * quad_dot(ray.from_normal, ray.direction) /
@@ -70,14 +78,17 @@ std::optional<Quad> QuadTracer::distance_to(std::size_t surface, const QuadRay& 
   const std::size_t index = surface - scene_.spheres.size();
   const Plane& plane = scene_.planes[index];
   const Quad towards = quad_dot(plane.normal, ray.direction);
-  if (surface == ray.from || !(side_[index] * towards < 0)) return std::nullopt;
+  const bool is_own = ray.from != kNone && coincide(surface, ray.from);
+  if (is_own || !(side_[index] * towards < 0)) return std::nullopt;
   const Quad t = quad_dot(plane.normal, QuadVec(plane.point) - ray.origin) / towards;
   return t > 0 ? t : 0;
 }
 
 bool QuadTracer::coincide(std::size_t a, std::size_t b) const {
   const std::size_t spheres = scene_.spheres.size();
-  return a < spheres && b < spheres && render::coincide(scene_.spheres[a], scene_.spheres[b]);
+  if ((a < spheres) != (b < spheres)) return false;
+  return a < spheres ? render::coincide(scene_.spheres[a], scene_.spheres[b])
+                     : render::coincide(scene_.planes[a - spheres], scene_.planes[b - spheres]);
 }
 
 std::optional<QuadHit> QuadTracer::nearest(const QuadRay& ray) const {
@@ -89,7 +100,9 @@ std::optional<QuadHit> QuadTracer::nearest(const QuadRay& ray) const {
   if (!best) return best;
   best->point = ray.origin + best->t * ray.direction;
   if (best->surface < scene_.spheres.size()) {
-    const QuadVec outward = quad_unit(best->point - QuadVec(scene_.spheres[best->surface].center));
+    // From the centre, not from the origin of the coordinates: beside that a tiny sphere would vanish.
+    const QuadVec from_center = ray.origin - QuadVec(scene_.spheres[best->surface].center);
+    const QuadVec outward = quad_unit(from_center + best->t * ray.direction);
     best->normal = inside_[best->surface] ? Quad(-1) * outward : outward;
   } else {
     const std::size_t plane = best->surface - scene_.spheres.size();
@@ -101,9 +114,25 @@ std::optional<QuadHit> QuadTracer::nearest(const QuadRay& ray) const {
 bool QuadTracer::is_blocked(const QuadRay& ray, const Light& light) const {
   for (std::size_t i = 0; i != scene_.spheres.size() + scene_.planes.size(); ++i) {
     const std::optional<Quad> t = distance_to(i, ray);
-    if (t && (light.kind == LightKind::directional || *t < 1)) return true;
+    if (!t) continue;
+    if (light.kind == LightKind::directional) return true;
+    // Of a surface that the light is on, rounding cannot tell the end point, which is open, from one before it.
+    const bool is_end = ends_at_light(i, ray, light.vector);
+    if (!is_end && (*t < 1 || is_on_surface(i, light.vector))) return true;
   }
   return false;
+}
+
+bool QuadTracer::is_on_surface(std::size_t surface, const QuadVec& point) const {
+  const std::size_t spheres = scene_.spheres.size();
+  return surface < spheres ? is_on(scene_.spheres[surface], point) : is_on(scene_.planes[surface - spheres], point);
+}
+
+/// A ray to a light on a surface meets that at the light, unless it comes through the sphere from its far side.
+bool QuadTracer::ends_at_light(std::size_t surface, const QuadRay& ray, const QuadVec& light) const {
+  if (!is_on_surface(surface, light)) return false;
+  if (surface >= scene_.spheres.size() || inside_[surface]) return true;
+  return !(quad_dot(light - QuadVec(scene_.spheres[surface].center), ray.direction) > 0);
 }
 
 bool QuadTracer::is_lit(const QuadHit& hit, const Light& light, RayCounts& counts) const {

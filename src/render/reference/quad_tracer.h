@@ -46,6 +46,8 @@ class QuadTracer {
   bool coincide(std::size_t a, std::size_t b) const;
   std::optional<QuadHit> nearest(const QuadRay& ray) const;
   bool is_blocked(const QuadRay& ray, const Light& light) const;
+  bool is_on_surface(std::size_t surface, const QuadVec& point) const;
+  bool ends_at_light(std::size_t surface, const QuadRay& ray, const QuadVec& light) const;
   bool is_lit(const QuadHit& hit, const Light& light, RayCounts& counts) const;
   QuadVec reflected_light(const QuadHit& hit, const Material& material, const QuadVec& to_viewer, Signature& signature,
                           RayCounts& counts) const;
