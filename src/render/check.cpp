@@ -128,6 +128,9 @@ Problem problem_with_span(const SceneData& scene) {
   for (const Sphere& sphere : scene.spheres) {
     if (sphere.radius > 0) smallest = std::min(smallest, sphere.radius);
   }
+  for (const Plane& plane : scene.planes) {
+    if (plane.checker) smallest = std::min(smallest, plane.checker->size);
+  }
   if (smallest >= largest / kLargestSpan) return std::nullopt;
   return "lengths span from " + text_of(smallest) + " to " + text_of(largest) + " (a factor of more than " +
          text_of(kLargestSpan) + ") leave out what cannot be seen";

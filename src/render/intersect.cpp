@@ -119,7 +119,7 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
     return false;
   });
   if (favourite) settle(*favourite);
-  for (std::size_t i = 0; i != scene.data().planes.size(); ++i) {
+  for (const std::size_t i : scene.visible_planes()) {
     const SurfaceId id = scene.plane_id(i);
     if (id == ray.from) continue;
     if (const auto t = distance_to(scene.data().planes[i], ray, region.side_of(i), latest)) {
@@ -136,6 +136,12 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
   const Vec3 normal =
       best.meeting == Meeting::entry ? normal_at(entry, ray.direction) : exit_normal(ray, norm, sphere, best.surface);
   return sphere_hit(sphere, best.surface, t, normal);
+}
+
+bool is_on_path_side(const Scene& scene, std::size_t light, SurfaceId surface, const Region& region) noexcept {
+  if (scene.is_sphere(surface)) return true;
+  const std::size_t plane = index_of(surface) - scene.sphere_count();
+  return scene.light_side(light, plane) == region.side_of(plane);
 }
 
 bool is_shut_off(const Scene& scene, std::size_t light_index, const Region& region) noexcept {

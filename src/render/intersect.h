@@ -14,6 +14,10 @@ namespace tessera::render {
 /// distances go to the lowest surface.
 std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region& region) noexcept;
 
+/// False for a light that is in the plane `surface` or behind it, which a rounded point of the plane may not tell; a
+/// sphere leaves that to the normal.
+bool is_on_path_side(const Scene& scene, std::size_t light, SurfaceId surface, const Region& region) noexcept;
+
 /// Whether light number `light` reaches no point of a path in `region`, wherever that is: one of the two is behind a
 /// plane or within a sphere, and the other is not.
 bool is_shut_off(const Scene& scene, std::size_t light, const Region& region) noexcept;

@@ -80,8 +80,8 @@ double PathError::shift_at(double distance) const noexcept {
   return kGrowth * (line_error_ + direction_error_ * (distance + position_error_));
 }
 
-// The hit is off by shift / cosine along the surface, of which cosine / 1 is across the mirrored ray. Within the limit
-// on that the cosine itself changes by less than 1 %.
+// The hit is off by shift / cosine along the surface, and so the mirrored ray by shift across its direction. Within the
+// limit on that the cosine itself changes by less than 1 %.
 std::optional<PathError::Arrival> PathError::arrival_at_sphere(const PathVertex& vertex) {
   const Ray ray = squarable(vertex.ray);
   const DirectionNorm norm = norm_of(ray.direction);
@@ -164,13 +164,15 @@ double PathError::own_chord_error(double radius) const noexcept {
 void PathError::check_first(const Ray& ray, SurfaceId hit, double latest) {
   if (vertices_ == 0) return;
   const Vec3 direction = normalized(ray.direction);
-  const Tube tube(ray.origin - position_error_ * direction, direction, latest + position_error_, kGrowth * line_error_,
+  // The tube begins where the true origin may be, which is rounded once more.
+  const double line_error = kGrowth * line_error_ + 2 * u * length(ray.origin);
+  const Tube tube(ray.origin - position_error_ * direction, direction, latest + position_error_, line_error,
                   kGrowth * direction_error_);
   const auto is_other = [&](SurfaceId id) {
     return id != hit && id != ray.from && !scene_.are_coincident(id, hit) && !scene_.are_coincident(id, ray.from);
   };
 
-  scene_.visit_where([&](const Box& box) { return tube.may_meet(box); },
+  scene_.visit_where([&](const Box& box) { return is_certified_ && tube.may_meet(box); },
                      [&](const LeafSphere& sphere) {
                        if (!is_other(sphere.id) || region_.is_inside(sphere.id)) return;
                        if (!tube.surely_passes(sphere.center, sphere.radius)) give_up();
@@ -183,7 +185,7 @@ void PathError::check_first(const Ray& ray, SurfaceId hit, double latest) {
       if (!(chord - own_chord_error(wall.radius) > latest)) give_up();
     }
   }
-  for (std::size_t i = 0; i != scene_.data().planes.size(); ++i) {
+  for (const std::size_t i : scene_.visible_planes()) {
     const SurfaceId id = scene_.plane_id(i);
     if (!is_other(id)) continue;
     if (!tube.surely_stays_beside(scene_.plane(id).point, scene_.unit_normal(id), region_.side_of(i))) give_up();
@@ -197,24 +199,23 @@ void PathError::check_cell(const Plane& plane, const Vec3& point, double positio
   const double error = kGrowth * position_error + kRounding * length(offset);
   for (const Vec3& axis : {axes.u, axes.v}) {
     const double way = dot(offset, axis);
-    if (std::floor((way - error) / plane.checker->size) != std::floor((way + error) / plane.checker->size)) give_up();
+    const double cell = std::floor((way - error) / plane.checker->size);
+    // From 2^53 on, doubles cannot tell an even cell from an odd one.
+    if (!(std::abs(cell) < 0x1p53) || cell != std::floor((way + error) / plane.checker->size)) give_up();
   }
 }
 
 void PathError::on_light(std::size_t index, bool is_lit) {
   const Light& light = scene_.data().lights[index];
   if (!is_certified_ || light.color == Rgb{}) return;
-  if (!scene_.is_sphere(place_.surface)) {
-    const std::size_t plane = index_of(place_.surface) - scene_.sphere_count();
-    if (scene_.light_side(index, plane) != region_.side_of(plane)) return;
-  }
+  if (!is_on_path_side(scene_, index, place_.surface, region_)) return;
 
   // The way to the light, and how far its direction may be off.
   const bool is_point = light.kind == LightKind::point;
   const Vec3 way = is_point ? light.vector - place_.point : -light.vector;
-  const Vec3 to_light = normalized(way);
   const double distance = is_point ? length(way) : std::numeric_limits<double>::infinity();
   if (!(place_.position_error < kLargest * distance)) return give_up();
+  const Vec3 to_light = normalized(way);
   const double way_error = kGrowth * place_.position_error / distance + kRounding;
 
   const double n_l = dot(place_.normal, to_light);
@@ -239,7 +240,7 @@ void PathError::check_shadow(std::size_t index, bool is_lit, const Vec3& to_ligh
   const Tube tube(place_.point, to_light, distance, kGrowth * place_.position_error + rounded_end, 0);
   bool is_surely_blocked = false;
   bool is_surely_free = true;
-  scene_.visit_where([&](const Box& box) { return tube.may_meet(box); },
+  scene_.visit_where([&](const Box& box) { return is_certified_ && tube.may_meet(box); },
                      [&](const LeafSphere& sphere) {
                        if (sphere.id == place_.surface || region_.is_inside(sphere.id)) return;
                        if (scene_.are_coincident(sphere.id, place_.surface)) return;
@@ -279,7 +280,7 @@ PathError::Highlight PathError::highlight_of(const Vec3& to_light, double n_l, d
   const auto raised = [&](double base) { return power(std::clamp(base, 0.0, 1.0), material.shininess); };
   const double highest = raised(most);
   const double lowest = least > 0 ? raised(least) : 0;
-  return {cosine > 0 ? raised(cosine) : 0, highest - lowest + (16 + 2 * material.shininess) * u * highest};
+  return {cosine > 0 ? raised(cosine) : 0, highest - lowest + (24 + 3 * material.shininess) * u * highest};
 }
 
 void PathError::add(const Rgb& term, const Rgb& error) {

@@ -21,9 +21,9 @@ namespace tessera::render {
 /// cell of a board, each light's side and shadow. If one could, the pixel is uncertified and the bound infinite, for an
 /// edge may lie between the two.
 ///
-/// error:   of first order in the errors; each growth is taken 1 % larger than it is, and beyond 2^-10, where the
-/// second
-///          order matters, the path counts as uncertified
+/// error:   underflow aside. Of first order in the errors: each growth is taken 1 % larger than it is, and beyond
+/// 2^-10,
+///          where the second order matters, the path counts as uncertified
 /// source:  the propagation of Igehy, Tracing ray differentials (1999), with bounds in place of differentials
 class PathError final : public PathObserver {
  public:

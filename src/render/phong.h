@@ -20,8 +20,10 @@ inline Rgb reflected_light(const Material& material, const Rgb& intensity, Shade
   if (!(n_l > 0)) return {};
   Rgb sum = material.diffuse * n_l * material.color;
   if (material.specular > 0) {
+    const Vec3 half = to_light + to_viewer;  // 0 for a light straight behind a surface seen edge on
     const double cosine = shade == Shade::phong ? 2 * n_l * dot(normal, to_viewer) - dot(to_light, to_viewer)
-                                                : dot(normal, normalized(to_light + to_viewer));
+                          : half == Vec3{}      ? 0
+                                                : dot(normal, normalized(half));
     if (cosine > 0) {
       const double highlight = material.specular * power(std::min(cosine, 1.0), material.shininess);
       sum += Rgb{highlight, highlight, highlight};

@@ -5,8 +5,8 @@
 
 namespace tessera::render {
 
-/// Largest ratio of a length in a scene (a coordinate, a radius, a cell of a checker board) to its smallest radius
-/// other than 0: at unit scale, the square of that radius still has all its digits.
+/// Largest ratio of a length in a scene (a coordinate, a radius) to its smallest radius other than 0 or cell of a
+/// board: at unit scale, the square of that radius still has all its digits.
 inline constexpr double kLargestSpan = 1e140;
 
 /// The same scene in units in which its largest length is from 1/2 to 1, and with directions whose largest component

@@ -13,6 +13,10 @@ namespace tessera::render {
 Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(kernel) {
   if (kernel_ == Kernel::tree) bvh_ = build_bvh(data_.spheres);
   for (const Plane& plane : data_.planes) plane_normals_.push_back(normalized(plane.normal));
+  for (std::size_t i = 0; i != data_.planes.size(); ++i) {
+    const auto is_same = [&](std::size_t other) { return coincide(data_.planes[other], data_.planes[i]); };
+    if (std::none_of(visible_planes_.begin(), visible_planes_.end(), is_same)) visible_planes_.push_back(i);
+  }
   for (const Light& light : data_.lights) {
     const bool is_point = light.kind == LightKind::point;
     light_placements_.push_back(is_point ? placement_of(light.vector) : Placement{});

@@ -35,6 +35,10 @@ class Scene {
   const Vec3& unit_normal(SurfaceId plane) const noexcept { return plane_normals_[index_of(plane) - sphere_count()]; }
   SurfaceId plane_id(std::size_t plane) const noexcept { return surface_id(sphere_count() + plane); }
 
+  /// The planes that can be seen: of those that coincide the first alone.
+  const std::vector<std::size_t>& visible_planes() const noexcept { return visible_planes_; }
+
+  /// Of two spheres.
   bool are_coincident(SurfaceId a, SurfaceId b) const noexcept {
     return is_sphere(a) && is_sphere(b) && coincide(sphere(a), sphere(b));
   }
@@ -73,6 +77,7 @@ class Scene {
   SceneData data_;
   Kernel kernel_;
   Bvh bvh_;
+  std::vector<std::size_t> visible_planes_;
   std::vector<Vec3> plane_normals_;  ///< of length 1
   std::vector<Placement> light_placements_;
   std::vector<std::int8_t> light_sides_;  ///< lights x planes

@@ -22,13 +22,6 @@ const Material& material_of(const Scene& scene, const Hit& hit, Cell cell) noexc
   return scene.data().materials[static_cast<std::size_t>(index)];
 }
 
-/// False for a light that is in the plane hit or behind it, which the rounded point of the hit may not tell.
-bool is_on_path_side(const Scene& scene, std::size_t light, SurfaceId hit, const Region& region) noexcept {
-  if (scene.is_sphere(hit)) return true;
-  const std::size_t plane = index_of(hit) - scene.sphere_count();
-  return scene.light_side(light, plane) == region.side_of(plane);
-}
-
 /// Ambient light and every light that reaches the hit.
 /// shapes:  normal is unit and faces against `incoming`
 Rgb local_radiance(const Scene& scene, const Hit& hit, const Material& material, const Vec3& normal,

@@ -8,20 +8,14 @@
 #include "io/scene_reader.h"
 #include "render/camera.h"
 #include "render/path_error.h"
+#include "render/quad_oracle.h"
 #include "render/reference/quad_tracer.h"
 #include "render/scale.h"
 #include "render/tracer.h"
 
 using namespace tessera;
 using namespace tessera::render;
-
-namespace {
-
-double error_of(double value, reference::Quad exact) {
-  return static_cast<double>(reference::magnitude(value - exact));
-}
-
-}  // namespace
+using namespace tessera::render::test;
 
 BOOST_AUTO_TEST_SUITE(ErrorBound)
 
@@ -48,7 +42,7 @@ BOOST_AUTO_TEST_CASE(holds_on_every_scene_of_the_collection) {
                                       counts, observers);
       if (std::isinf(path_error.bound())) continue;
       ++certified;
-      const auto exact = reference::QuadTracer(scene.data(), ray.origin, ray.direction).radiance();
+      const auto exact = QuadTracer(scene.data(), ray.origin, ray.direction).radiance();
       const double error = std::max({error_of(seen.r, exact.x), error_of(seen.g, exact.y), error_of(seen.b, exact.z)});
       closest = std::max(closest, error / path_error.bound());
     }

@@ -213,4 +213,71 @@ BOOST_AUTO_TEST_CASE(paths_between_convex_mirrors_are_given_up_in_time) {
   BOOST_TEST(certified < 6 * 300);
 }
 
+BOOST_AUTO_TEST_CASE(cells_that_doubles_cannot_count_are_uncertified) {
+  SceneData data;
+  add_plane(data, {0, 0, 0}, {0, 0, 1});
+  for (const double size : {1e-130, 1e-20}) {
+    data.planes[0].checker = Checker{add_material(data, mirror()), size};
+    BOOST_TEST(!is_certified(data, {0.5, 0.25, 1}, {0.3, 0.1, -1}), size);
+  }
+}
+
+// The light is where the ray ends: nothing there is in its way, and nothing is rounded to be.
+BOOST_AUTO_TEST_CASE(lights_exactly_on_surfaces_keep_the_bound) {
+  SceneData data;
+  add_sphere(data, {0, 0, 0}, 5);
+  add_plane(data, {0, 0, -9}, {0, 0, 1});
+  add_point_light(data, {3, 0, -4});
+  SceneData on_a_plane;
+  add_sphere(on_a_plane, {1, 2, 3}, 1);
+  add_plane(on_a_plane, {0, 0, 0}, {1, 2, 3});
+  add_point_light(on_a_plane, {3, 0, -1});
+  add_point_light(on_a_plane, {2, -1, 0});
+  BoundCheck on_sphere_check(data);
+  BoundCheck on_plane_check(on_a_plane);
+  Random random(195);
+  for (int i = 0; i != 1000; ++i) {
+    on_sphere_check.trace({8, 1, -8}, Vec3{4, 0, -9} + 2 * random.in_box(1) - Vec3{8, 1, -8});
+    on_plane_check.trace({4, 4, 8}, Vec3{1, 2, 3} + random.in_box(0.9) - Vec3{4, 4, 8});
+  }
+  on_sphere_check.report("light on a sphere");
+  on_plane_check.report("lights in a plane");
+}
+
+// A sphere of 1e-21 at a place of size 1: quad precision must not lose it either.
+BOOST_AUTO_TEST_CASE(tiny_spheres_keep_the_bound) {
+  SceneData data;
+  const Vec3 center{0.93132257393562279, -0.93132257432169663, -6.5e-10};
+  add_sphere(data, center, 1.65e-21, {.specular = 0.5, .shininess = 10});
+  add_directional_light(data, {1, -2, -1});
+  BoundCheck check(data);
+  Random random(196);
+  for (int i = 0; i != 300; ++i) {
+    const Vec3 eye = center + 1e-19 * random.direction();
+    check.trace(eye, center - eye);
+  }
+  check.report("tiny sphere");
+}
+
+// The second of two equal planes is never met, and casts no doubt.
+BOOST_AUTO_TEST_CASE(planes_given_twice_stay_certified) {
+  SceneData data;
+  add_plane(data, {0, 0, 0}, {1, 2, 3}, mirror(0.5));
+  add_plane(data, {0, 0, 0}, {1, 2, 3});
+  add_point_light(data, {3, 1, 4});
+  BOOST_TEST(is_certified(data, {1, 2, 4}, {0.25, -0.125, -1}));
+}
+
+// Nothing to normalise: the light is the shaded point, or straight behind a surface seen edge on.
+BOOST_AUTO_TEST_CASE(lights_without_a_direction_raise_nothing) {
+  SceneData data;
+  add_sphere(data, {0, 0, 0}, 1, {.specular = 0.5});
+  add_point_light(data, {0, 0, 1});
+  BOOST_TEST(!is_certified(data, {0, 0, 3}, {0, 0, -1}));
+  const Vec3 grazing{-0.22865650041166749, 0.2822955407712493, -0.93167882474603714};
+  data.lights[0] = {LightKind::directional, -grazing, kWhite};
+  data.image.shade = Shade::blinn;
+  BOOST_TEST(!is_certified(data, {1.6561424461441809, -0.85994867161803445, 2.5529748295394428}, grazing));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -94,4 +94,13 @@ BOOST_AUTO_TEST_CASE(span_of_a_scene_is_limited) {
   BOOST_TEST(problem.find("from 1e-41 to 1e+100") != std::string::npos, problem);
 }
 
+BOOST_AUTO_TEST_CASE(cells_of_a_board_count_as_lengths) {
+  SceneData data;
+  add_plane(data, {0, 0, 1}, {0, 0, 1});
+  data.planes[0].checker = Checker{add_material(data, matte()), 1e-139};
+  BOOST_TEST(!problem_with_span(data));
+  data.planes[0].checker->size = 1e-141;
+  BOOST_TEST(problem_with_span(data).has_value());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
