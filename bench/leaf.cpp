@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "render/bvh.h"
 #include "render/sphere.h"
 
 namespace {
@@ -18,9 +19,13 @@ using namespace tessera::render;
 struct Pair {
   Ray ray;
   DirectionNorm norm;
+  LookBounds bounds;
   Vec3 center;
   double radius;
 };
+
+/// Holds all spheres; see Scene::reach_from.
+const Box kScene{{-5.1, -5.1, -5.1}, {5.1, 5.1, 5.1}};
 
 std::vector<Pair> pairs() {
   std::mt19937_64 engine(1);
@@ -32,7 +37,9 @@ std::vector<Pair> pairs() {
     const double radius = 0.05 + 0.05 * std::abs(uniform());
     const Vec3 origin = center + 3 * normalized(in_box());
     const Vec3 direction = center + radius * in_box() - origin;
-    all.push_back({{.origin = origin, .direction = direction}, norm_of(direction), center, radius});
+    const Ray ray{.origin = origin, .direction = direction};
+    const DirectionNorm norm = norm_of(direction);
+    all.push_back({ray, norm, look_bounds(norm, kScene.reach_from(origin)), center, radius});
   }
   return all;
 }
@@ -40,21 +47,22 @@ std::vector<Pair> pairs() {
 /// Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7, in double precision, without a bound on anything.
 double plain_entry(const Pair& p) {
   const Vec3 f = p.center - p.ray.origin;
-  const double foot = dot(f, p.ray.direction) * p.norm.inverse_squared;
+  const double foot = dot(f, p.ray.direction) * p.bounds.inverse_squared;
   const Vec3 perpendicular = f - foot * p.ray.direction;
   const double square = p.radius * p.radius - dot(perpendicular, perpendicular);
   if (square < 0 || foot < 0) return -1;
-  return foot - std::sqrt(square) * p.norm.inverse_length;
+  return foot - std::sqrt(square) * p.bounds.inverse_length;
 }
 
 /// As nearest_hit does: the exact test only where the first look cannot tell.
 double bounded_entry(const Pair& p) {
-  const FirstLook look(p.ray, p.norm, p.center, p.radius);
-  if (look.surely_misses(p.norm)) return -1;
-  if (look.surely_meets(p.norm)) {
-    const Bounded t = look.entry(p.norm, p.radius);
+  const FirstLook look(p.ray, p.bounds, p.center, p.radius);
+  if (look.surely_passes(p.bounds)) return -1;
+  if (look.surely_meets(p.bounds)) {
+    const Bounded t = look.entry(p.bounds);
     return t.value - t.error;
   }
+  if (look.surely_lies_behind(p.bounds)) return -1;
   const auto crossing = entry_into(p.ray, p.norm, p.center, p.radius);
   return crossing ? crossing->t.value : -1;
 }

@@ -22,6 +22,12 @@ double Box::half_area() const noexcept {
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
+double Box::reach_from(const Vec3& p) const noexcept {
+  const Vec3 a = p - lo;
+  const Vec3 b = hi - p;
+  return std::max(a.x, b.x) + std::max(a.y, b.y) + std::max(a.z, b.z);
+}
+
 Box bounds_of(const Vec3& center, double radius) noexcept {
   // A computed hit may belong to a sphere larger by some 10u; then round each face outward.
   const double wide = radius * (1 + 64 * kUnitRoundoff);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -31,6 +32,8 @@ struct Box {
   void include(const Box& other) noexcept;
   bool contains(const Vec3& p) const noexcept;
   double half_area() const noexcept;
+  /// The distance from `p` to the corner that is farthest from it, summed over the axes.
+  double reach_from(const Vec3& p) const noexcept;
 };
 
 /// The box of a sphere, a little wider than the sphere: whatever sphere.h computes as hit lies inside.

@@ -46,15 +46,21 @@ bool is_blocked(const Scene& scene, const Ray& to_light, const DirectionNorm& no
   const Light& light = scene.data().lights[light_index];
   const bool is_point = light.kind == LightKind::point;
   const Placement& placement = scene.light_placement(light_index);
+  const LookBounds bounds = look_bounds(norm, scene.reach_from(to_light.origin));
   bool blocked = false;
   scene.visit_along(to_light, end, [&](const LeafSphere& sphere) {
-    const FirstLook look(to_light, norm, sphere.center, sphere.radius);
-    if (look.surely_misses(norm)) return false;
+    const FirstLook look(to_light, bounds, sphere.center, sphere.radius);
+    if (look.surely_passes(bounds)) return false;
     if (sphere.id == to_light.from || region.is_inside(sphere.id)) return false;
     // The light is on this sphere, on the side that the ray comes from: that is the end point, which is open.
     const bool touches_light = holds(placement.touching, sphere.id);
     if (touches_light && side_of_plane(light.vector, sphere.center, to_light.direction) <= 0) return false;
-    if (!touches_light && look.surely_meets(norm) && look.is_surely_before(end, norm)) return blocked = true;
+    if (!touches_light && look.surely_meets(bounds) && look.is_surely_before(end, bounds)) return blocked = true;
+    if (look.surely_lies_behind(bounds)) return false;
+    const LookBounds closer = closer_bounds(bounds, to_light.origin, sphere.center, sphere.radius);
+    const FirstLook second(to_light, closer, sphere.center, sphere.radius);
+    if (second.surely_passes(closer) || second.surely_lies_behind(closer)) return false;
+    if (!touches_light && second.surely_meets(closer) && second.is_surely_before(end, closer)) return blocked = true;
     if (scene.are_coincident(sphere.id, to_light.from)) return false;
     const Passage passage = passage_of(to_light, norm, sphere.center, sphere.radius);
     const bool has_end = is_point && !touches_light;
@@ -97,25 +103,32 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
   // The first look usually leaves one favourite, met before all others; only what it cannot tell apart is settled.
   std::optional<LeafSphere> favourite;
   double favourite_earliest = 0;
-  scene.visit_along(ray, latest, [&](const LeafSphere& sphere) {
-    const FirstLook look(ray, norm, sphere.center, sphere.radius);
-    if (look.surely_misses(norm)) return false;
-    if (sphere.id == ray.from || region.is_inside(sphere.id)) return false;
-    if (!look.surely_meets(norm)) {
-      settle(sphere);
-      return false;
+  const auto consider = [&](const LookBounds& bounds, const LeafSphere& sphere, auto&& where_unsure) {
+    const FirstLook look(ray, bounds, sphere.center, sphere.radius);
+    if (look.surely_passes(bounds) || sphere.id == ray.from || region.is_inside(sphere.id)) return;
+    if (!look.surely_meets(bounds)) {
+      if (!look.surely_lies_behind(bounds)) where_unsure();
+      return;
     }
-    const Bounded t = look.entry(norm, sphere.radius);
-    if (t.value - t.error > latest) return false;
-    if (favourite && t.value + t.error >= favourite_earliest) {
+    const Bounded t = look.entry(bounds);
+    if (t.value - t.error > latest) return;
+    const double t_latest = std::max(t.value + t.error, 0.0);
+    if (favourite && t_latest >= favourite_earliest) {
       settle(*favourite);
       settle(sphere);
       favourite.reset();
-      return false;
+      return;
     }
     favourite = sphere;
     favourite_earliest = t.value - t.error;
-    latest = std::min(latest, t.value + t.error);
+    latest = std::min(latest, t_latest);
+  };
+  const LookBounds first_bounds = look_bounds(norm, scene.reach_from(ray.origin));
+  scene.visit_along(ray, latest, [&](const LeafSphere& sphere) {
+    consider(first_bounds, sphere, [&] {
+      const LookBounds closer = closer_bounds(first_bounds, ray.origin, sphere.center, sphere.radius);
+      consider(closer, sphere, [&] { settle(sphere); });
+    });
     return false;
   });
   if (favourite) settle(*favourite);

@@ -12,6 +12,14 @@ namespace tessera::render {
 
 Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(kernel) {
   if (kernel_ == Kernel::tree) bvh_ = build_bvh(data_.spheres);
+  Box bounds;
+  for (const Sphere& sphere : data_.spheres) {
+    if (sphere.radius > 0) bounds.include(bounds_of(sphere.center, sphere.radius));
+  }
+  if (bounds.lo.x <= bounds.hi.x) {
+    middle_ = 0.5 * (bounds.lo + bounds.hi);
+    reach_ = bounds.reach_from(middle_);
+  }
   for (const Plane& plane : data_.planes) plane_normals_.push_back(normalized(plane.normal));
   for (std::size_t i = 0; i != data_.planes.size(); ++i) {
     const auto is_same = [&](std::size_t other) { return coincide(data_.planes[other], data_.planes[i]); };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "render/bvh.h"
@@ -53,6 +54,12 @@ class Scene {
 
   Placement placement_of(const Vec3& point) const;
 
+  /// At least |C - point| + r for every sphere that can be hit, but for a few roundings.
+  double reach_from(const Vec3& point) const noexcept {
+    const Vec3 way = point - middle_;
+    return std::abs(way.x) + std::abs(way.y) + std::abs(way.z) + reach_;
+  }
+
   /// Calls visit(sphere) for every sphere that the ray may meet before `t_max`; see Bvh::visit_along.
   template <class Visit>
   void visit_along(const Ray& ray, const double& t_max, Visit&& visit) const {
@@ -77,6 +84,8 @@ class Scene {
   SceneData data_;
   Kernel kernel_;
   Bvh bvh_;
+  Vec3 middle_;                      ///< of the box around all spheres that can be hit
+  double reach_ = 0;                 ///< from there to a corner, summed over the axes
   std::vector<std::size_t> visible_planes_;
   std::vector<Vec3> plane_normals_;  ///< of length 1
   std::vector<Placement> light_placements_;

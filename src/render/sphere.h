@@ -23,18 +23,14 @@ namespace tessera::render {
 
 /// A direction with what every sphere test needs of it.
 struct DirectionNorm {
-  double squared = 0;          ///< a = d.d
-  double length = 0;           ///< sqrt(a)
-  double inverse_squared = 0;  ///< these two for first looks only
-  double inverse_length = 0;
+  double squared = 0;  ///< a = d.d
+  double length = 0;   ///< sqrt(a)
 };
 
 /// requires: is_squarable(direction.direction)
 inline DirectionNorm norm_of(const Vec3& direction) noexcept {
   const double a = dot(direction, direction);
-  const double length = std::sqrt(a);
-  const double inverse = 1 / a;
-  return {a, length, inverse, inverse * length};
+  return {a, std::sqrt(a)};
 }
 
 /// -1 for a point inside a sphere, 0 on it, +1 outside; exact.
@@ -44,52 +40,72 @@ inline int side_of(const Vec3& point, const Vec3& center, double radius) noexcep
   });
 }
 
+/// What first looks at spheres along one ray have in common.
+struct LookBounds {
+  double inverse_squared;  ///< 1 / d.d
+  double inverse_length;
+  double slack;        ///< more than p^2 - r^2 of any sphere is off by
+  double foot_slack;   ///< more than the foot's t is off by
+  double entry_error;  ///< what t of an entry is off by, where p^2 - r^2 < -slack
+};
+
+/// shapes:  reach = F >= |C - O| + r for every sphere that will be looked at
+/// error:   the slack is 2^12 times what FirstLook needs: so the half chord of a sphere met is at least 2^-18 F, and
+///          known to 2^-48 F^2 / 2^-18 F, without a division
+inline LookBounds look_bounds(const DirectionNorm& norm, double reach) noexcept {
+  const double inverse = 1 / norm.squared;
+  const double inverse_length = inverse * norm.length;
+  const double t = reach * inverse_length;
+  return {inverse, inverse_length, 0x1p-36 * reach * reach, 0x1p-49 * t, 0x1p-29 * t};
+}
+
+/// The same for a second look at one sphere: bounds for all spheres say nothing about one that is tiny beside the
+/// scene. error:   F is |C - O| + r; the half chord of a sphere met is at least 2^-24 F, and known to 2^-48 F^2 / 2^-24
+/// F
+inline LookBounds closer_bounds(const LookBounds& first, const Vec3& origin, const Vec3& center,
+                                double radius) noexcept {
+  const double reach = length(center - origin) + radius;
+  const double t = reach * first.inverse_length;
+  return {first.inverse_squared, first.inverse_length, 0x1p-48 * reach * reach, 0x1p-49 * t, 0x1p-23 * t};
+}
+
 /// A first look at a sphere from a ray outside of it, in plain double precision: by the foot of the perpendicular
 /// from the centre. What it calls sure is sure; where it is not, the exact test below decides. It spares nearly all
 /// spheres that test.
-/// error:   f, the foot's distance and the perpendicular p are off by at most 8u |f|; p^2 - r^2 thus by less than
-///          slack = 64u f^2, for an origin outside has |f| >= r up to rounding
+/// error:   with g = |C - O| + r <= F: the foot's distance is off by 10u g (a u of f, three of f.d, five of its
+///          division by d.d), the perpendicular p by 13u g, and p^2 - r^2 by 26u g^2 + 5u g^2 <= 2^-48 g^2. A half
+///          chord s is off by |sqrt x - sqrt y| <= |x - y| / sqrt x, so by 2^-48 F^2 / s >= 32u g; twice that
+///          outweighs the error of the foot and the roundings
 /// source:  the formulation of Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7
 class FirstLook {
  public:
-  FirstLook(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
+  FirstLook(const Ray& ray, const LookBounds& bounds, const Vec3& center, double radius) noexcept {
     const Vec3 f = center - ray.origin;
-    foot_ = dot(f, ray.direction) * norm.inverse_squared;
+    foot_ = dot(f, ray.direction) * bounds.inverse_squared;
     const Vec3 p = f - foot_ * ray.direction;
     excess_ = dot(p, p) - radius * radius;
-    slack_ = 64 * kUnitRoundoff * dot(f, f);
   }
 
-  /// The line passes the sphere, or the sphere lies behind.
-  bool surely_misses(const DirectionNorm& norm) const noexcept {
-    return excess_ > slack_ || (foot_ < 0 && is_clear(foot_, norm));
-  }
+  /// The line passes the sphere.
+  bool surely_passes(const LookBounds& bounds) const noexcept { return excess_ > bounds.slack; }
+  /// The sphere lies behind the ray's origin.
+  bool surely_lies_behind(const LookBounds& bounds) const noexcept { return foot_ < -bounds.foot_slack; }
   /// The ray enters the sphere.
-  bool surely_meets(const DirectionNorm& norm) const noexcept {
-    return excess_ < -slack_ && foot_ > 0 && is_clear(foot_, norm);
+  bool surely_meets(const LookBounds& bounds) const noexcept {
+    return excess_ < -bounds.slack && foot_ > bounds.foot_slack;
   }
   /// The point of the line nearest to the centre comes before `end` times the direction.
-  bool is_surely_before(double end, const DirectionNorm& norm) const noexcept {
-    return foot_ < end && is_clear(end - foot_, norm);
-  }
+  bool is_surely_before(double end, const LookBounds& bounds) const noexcept { return foot_ < end - bounds.foot_slack; }
 
-  /// The distance to a sphere that is surely met.
+  /// The distance to a sphere that is surely met; below 0 for an origin that rounding has put inside.
   /// units:   t in multiples of |d|
-  /// error:   the half chord is off by at most sqrt(slack) <= 2^-23.5 (foot |d| + r), which outweighs the roundings
-  Bounded entry(const DirectionNorm& norm, double radius) const noexcept {
-    const double t = foot_ - std::sqrt(-excess_) * norm.inverse_length;
-    return {t, 0x1p-23 * (foot_ + radius * norm.inverse_length)};
+  Bounded entry(const LookBounds& bounds) const noexcept {
+    return {foot_ - std::sqrt(-excess_) * bounds.inverse_length, bounds.entry_error};
   }
 
  private:
-  /// Whether a distance from the foot is larger than the error of the foot.
-  bool is_clear(double gap, const DirectionNorm& norm) const noexcept {
-    return gap * gap * norm.squared > 2 * kUnitRoundoff * slack_;
-  }
-
   double foot_;    ///< t of the point of the line nearest to the centre
   double excess_;  ///< p^2 - r^2
-  double slack_;
 };
 
 /// How a line passes a sphere; both roots and both normals follow from it.

@@ -188,4 +188,11 @@ BOOST_AUTO_TEST_CASE(visit_where_finds_every_sphere_around_a_point) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(box_reaches_as_far_as_its_farthest_corner) {
+  const Box box{{-1, 0, 2}, {2, 5, 10}};
+  BOOST_TEST(box.reach_from({-1, 1, -2}) == 3 + 4 + 12);
+  BOOST_TEST(box.reach_from({2, 4, 14}) == 3 + 4 + 12);
+  BOOST_TEST(box.reach_from({0.5, 2.5, 6}) == 1.5 + 2.5 + 4);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

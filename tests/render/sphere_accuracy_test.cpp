@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(hit_or_miss_is_right_to_the_rim) {
   BOOST_TEST(wrong == 0);
 }
 
-// Whatever the first look calls sure is so in quad precision.
+// Whatever the first look calls sure is so in quad precision, and the second look too.
 BOOST_AUTO_TEST_CASE(first_look_is_sure_only_of_what_is_so) {
   Random random(25);
   int contradictions = 0;
@@ -141,25 +141,50 @@ BOOST_AUTO_TEST_CASE(first_look_is_sure_only_of_what_is_so) {
     const double passing = 1 + (random.flip() ? 1 : -1) * random.over_decades(1e-18, 1);
     Approach a(random, random.over_decades(1.0000001, 1e9), passing);
     if (i % 5 == 0) a.ray.direction = random.perpendicular_to(a.center - a.ray.origin);
-    const DirectionNorm norm = norm_of(a.ray.direction);
-    const FirstLook look(a.ray, norm, a.center, a.radius);
+    const double reach = length(a.center - a.ray.origin) + a.radius;
+    const LookBounds first = look_bounds(norm_of(a.ray.direction), reach);
     const QuadLine exact = line_of(a);
     const Quad b = quad_dot(QuadVec(a.center) - QuadVec(a.ray.origin), a.ray.direction);
     const Quad nearest = b / quad_dot(a.ray.direction, a.ray.direction);
-    const bool hits = exact.discriminant >= 0 && b > 0;
-    contradictions += look.surely_misses(norm) && hits;
+    const bool passes = exact.discriminant < 0;
     // An end of the ray about the nearest point.
     const double nudge = 1 + (random.flip() ? 1 : -1) * random.over_decades(1e-18, 1);
     const double end = nudge * static_cast<double>(nearest);
-    contradictions += look.surely_meets(norm) && !hits;
-    contradictions += look.is_surely_before(end, norm) && !(nearest < end);
-    sure += look.surely_misses(norm) + look.surely_meets(norm) + look.is_surely_before(end, norm);
-    if (!look.surely_meets(norm)) continue;
-    const Bounded t = look.entry(norm, a.radius);
-    contradictions += error_of(t.value, exact.near()) > t.error;
+    for (const LookBounds& bounds : {first, closer_bounds(first, a.ray.origin, a.center, a.radius)}) {
+      const FirstLook look(a.ray, bounds, a.center, a.radius);
+      contradictions += look.surely_passes(bounds) && !passes;
+      contradictions += look.surely_lies_behind(bounds) && !(b < 0);
+      contradictions += look.surely_meets(bounds) && (passes || !(b > 0));
+      contradictions += look.is_surely_before(end, bounds) && !(nearest < end);
+      sure += look.surely_passes(bounds) + look.surely_meets(bounds) + look.is_surely_before(end, bounds);
+      if (!look.surely_meets(bounds)) continue;
+      const Bounded t = look.entry(bounds);
+      contradictions += error_of(t.value, exact.near()) > t.error;
+    }
   }
   BOOST_TEST(contradictions == 0);
-  BOOST_TEST(sure > 20 * kRays);
+  BOOST_TEST(sure > 40 * kRays);
+}
+
+// A sphere that is tiny beside the scene: its own bounds tell.
+BOOST_AUTO_TEST_CASE(second_look_is_sure_of_a_small_sphere_in_a_large_scene) {
+  Random random(27);
+  int unsure_at_first = 0;
+  int unsure = 0;
+  for (int i = 0; i != kRays; ++i) {
+    const Approach a(random, random.over_decades(1.1, 1e3), random.flip() ? 0.9 : 1.1);
+    const double reach = 1e15 * a.radius;
+    const LookBounds first = look_bounds(norm_of(a.ray.direction), reach);
+    const LookBounds second = closer_bounds(first, a.ray.origin, a.center, a.radius);
+    const auto tells = [&](const LookBounds& bounds) {
+      const FirstLook look(a.ray, bounds, a.center, a.radius);
+      return look.surely_passes(bounds) || look.surely_meets(bounds);
+    };
+    unsure_at_first += !tells(first);
+    unsure += !tells(second);
+  }
+  BOOST_TEST(unsure_at_first == kRays);
+  BOOST_TEST(unsure == 0);
 }
 
 // |C - P|^2 - r^2 and f.d to u of themselves plus what twice the precision loses, and never beyond their bounds.
