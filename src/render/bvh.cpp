@@ -37,17 +37,6 @@ Box bounds_of(const Vec3& center, double radius) noexcept {
   return {{down(center.x), down(center.y), down(center.z)}, {up(center.x), up(center.y), up(center.z)}};
 }
 
-SlabTest::SlabTest(const Ray& ray) noexcept : origin_(ray.origin) {
-  // A ray parallel to a slab is inside of it for all t or for none. A huge finite reciprocal says so without
-  // 0 * infinity; a ray inside a face's own plane counts as outside, which loses nothing: boxes are wider than
-  // their spheres.
-  const auto inverse = [](double d) {
-    constexpr double kHuge = 0x1p1000;
-    return d == 0 ? kHuge : std::clamp(1 / d, -kHuge, kHuge);
-  };
-  inverse_ = {inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)};
-}
-
 std::size_t Bvh::memory_bytes() const noexcept {
   return nodes_.size() * sizeof(Node) + spheres_.size() * sizeof(LeafSphere);
 }

@@ -76,7 +76,8 @@ class Bvh {
 /// A ray prepared for box tests: reciprocal direction, and per axis which side of a box is the near one.
 class SlabTest {
  public:
-  explicit SlabTest(const Ray& ray) noexcept;
+  explicit SlabTest(const Ray& ray) noexcept
+      : origin_(ray.origin), inverse_{inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)} {}
 
   /// Whether something entered at `t` can hold a hit that is not after `t_max`.
   static bool is_before(double t, double t_max) noexcept { return t <= t_max * kSlack; }
@@ -95,6 +96,14 @@ class SlabTest {
 
  private:
   static constexpr double kSlack = 1 + 0x1p-48;
+
+  /// A ray parallel to a slab is inside of it for all t or for none. A huge finite reciprocal says so without
+  /// 0 * infinity; a ray inside a face's own plane counts as outside, which loses nothing: boxes are wider than
+  /// their spheres.
+  static double inverse(double d) noexcept {
+    constexpr double kHuge = 0x1p1000;
+    return d == 0 ? kHuge : std::clamp(1 / d, -kHuge, kHuge);
+  }
 
   static void clip(double lo, double hi, double origin, double inverse, double& enter, double& leave) noexcept {
     const double near = ((inverse < 0 ? hi : lo) - origin) * inverse;
