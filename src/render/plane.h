@@ -56,6 +56,66 @@ inline std::optional<Bounded> distance_to(const Plane& plane, const Ray& ray, in
   return not_negative(bounded_quotient({side * way.value, way.error}, {-side * speed.value, speed.error}));
 }
 
+/// The value of distance_to for a plane that the ray surely runs towards.
+inline double sure_distance_to(const Plane& plane, const Ray& ray, int side) noexcept {
+  const double speed = approach(ray.direction, plane).value;
+  const double way = height_over(plane, ray.origin).value;
+  return std::max(side * way / (-side * speed), 0.0);
+}
+
+/// What first looks at planes along one ray, or at one plane along all rays, have in common.
+struct PlaneLookRay {
+  double length;  ///< >= |d|
+  double reach;   ///< >= |O|
+};
+struct PlaneLookBounds {
+  double length;  ///< >= |n|
+  double reach;   ///< >= |P|
+};
+
+inline double sum_of_sizes(const Vec3& a) noexcept {
+  return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
+}
+
+/// A first look at a plane, in plain double precision. What it calls sure is sure; where it is not, distance_to
+/// decides.
+///
+/// error:   the speed d.n is off by 3u |d||n|, the height (O - P).n by 4u (|O| + |P|) |n|; both are counted as 8u. At a
+///          speed of more than 2^10 times its error, t = height / speed is off by the errors of both, divided by it
+class PlaneLook {
+ public:
+  PlaneLook(const Ray& ray, const PlaneLookRay& of_ray, const Plane& plane, const PlaneLookBounds& of_plane,
+            int side) noexcept
+      : ray_(ray), plane_(plane), side_(side) {
+    const double unit = 8 * kUnitRoundoff * of_plane.length;
+    speed_ = -side_ * dot(ray.direction, plane.normal);
+    speed_error_ = unit * of_ray.length;
+    // Products that vanish lose less than the smallest normal number.
+    height_error_ = unit * (of_ray.reach + of_plane.reach) + std::numeric_limits<double>::min();
+  }
+
+  /// The ray does not run towards the plane.
+  bool surely_recedes() const noexcept { return speed_ < -speed_error_; }
+  /// The ray runs towards the plane, and `distance` says how far.
+  bool surely_approaches() const noexcept { return speed_ > 0x1p10 * speed_error_; }
+
+  /// The distance to a plane that is surely approached; below 0 for an origin that rounding has put behind it.
+  /// units:   t in multiples of |d|
+  Bounded distance() const noexcept {
+    const double inverse = 1 / speed_;
+    const double t = side_ * dot(ray_.origin - plane_.point, plane_.normal) * inverse;
+    return {t, 2 * inverse * (height_error_ + std::abs(t) * speed_error_)};
+  }
+
+ private:
+  const Ray& ray_;
+  const Plane& plane_;
+  double side_;
+  double speed_;
+  double speed_error_;
+  double height_error_;
+};
+
 /// The board on a plane: its unit axes, and the unit normal.
 struct CheckerAxes {
   Vec3 u;  ///< e_i x N normalised for the axis i where |N_i| is smallest, the first of equals

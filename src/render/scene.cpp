@@ -20,7 +20,10 @@ Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(ke
     middle_ = 0.5 * (bounds.lo + bounds.hi);
     reach_ = bounds.reach_from(middle_);
   }
-  for (const Plane& plane : data_.planes) plane_normals_.push_back(normalized(plane.normal));
+  for (const Plane& plane : data_.planes) {
+    plane_normals_.push_back(normalized(plane.normal));
+    plane_looks_.push_back({sum_of_sizes(plane.normal), sum_of_sizes(plane.point)});
+  }
   for (std::size_t i = 0; i != data_.planes.size(); ++i) {
     const auto is_same = [&](std::size_t other) { return coincide(data_.planes[other], data_.planes[i]); };
     if (std::none_of(visible_planes_.begin(), visible_planes_.end(), is_same)) visible_planes_.push_back(i);

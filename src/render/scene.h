@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/bvh.h"
+#include "render/plane.h"
 #include "render/scene_data.h"
 
 // A scene made ready for tracing.
@@ -34,6 +35,7 @@ class Scene {
   const Sphere& sphere(SurfaceId id) const noexcept { return data_.spheres[index_of(id)]; }
   const Plane& plane(SurfaceId id) const noexcept { return data_.planes[index_of(id) - sphere_count()]; }
   const Vec3& unit_normal(SurfaceId plane) const noexcept { return plane_normals_[index_of(plane) - sphere_count()]; }
+  const PlaneLookBounds& plane_look(std::size_t plane) const noexcept { return plane_looks_[plane]; }
   SurfaceId plane_id(std::size_t plane) const noexcept { return surface_id(sphere_count() + plane); }
 
   /// The planes that can be seen: of those that coincide the first alone.
@@ -88,6 +90,7 @@ class Scene {
   double reach_ = 0;                 ///< from there to a corner, summed over the axes
   std::vector<std::size_t> visible_planes_;
   std::vector<Vec3> plane_normals_;  ///< of length 1
+  std::vector<PlaneLookBounds> plane_looks_;
   std::vector<Placement> light_placements_;
   std::vector<std::int8_t> light_sides_;  ///< lights x planes
 };

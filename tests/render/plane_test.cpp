@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "render/quad_oracle.h"
 #include "render/random.h"
 
 using namespace tessera::render;
@@ -117,6 +118,40 @@ BOOST_AUTO_TEST_CASE(points_far_out_have_some_material) {
     const MaterialIndex material = material_at(floor, {far, far / 3, 0});
     BOOST_TEST((material == kEven || material == kOdd));
   }
+}
+
+// t = ((P - O).n) / (d.n) in quad precision, for origins down to a hair from the plane and rays that graze it.
+BOOST_AUTO_TEST_CASE(first_look_at_a_plane_is_sure_only_of_what_is_so) {
+  Random random(82);
+  int contradictions = 0;
+  int sure = 0;
+  const int count = 100000;
+  for (int i = 0; i != count; ++i) {
+    const Plane plane =
+        board(random.over_decades(1e-3, 1e3) * random.in_box(1), random.over_decades(0.1, 10) * random.direction(), 1);
+    const Vec3 along = random.perpendicular_to(plane.normal);
+    const double height = (random.flip() ? 1 : -1) * random.over_decades(1e-18, 1e3);
+    const double slope = (random.flip() ? 1 : -1) * random.over_decades(1e-18, 1);
+    const Ray ray{.origin = plane.point + random.over_decades(1e-3, 1e3) * along + height * plane.normal,
+                  .direction = random.over_decades(0.01, 100) * (along + slope * plane.normal)};
+    const int side = side_of(ray.origin, plane);
+    if (side == 0) continue;
+    const PlaneLookRay of_ray{length(ray.direction), sum_of_sizes(ray.origin)};
+    const PlaneLookBounds of_plane{sum_of_sizes(plane.normal), sum_of_sizes(plane.point)};
+    const PlaneLook look(ray, of_ray, plane, of_plane, side);
+    const int heading = side * heading_of(ray.direction, plane);
+    contradictions += look.surely_recedes() && heading < 0;
+    contradictions += look.surely_approaches() && heading >= 0;
+    sure += look.surely_recedes() + look.surely_approaches();
+    if (!look.surely_approaches()) continue;
+    const Quad exact = quad_dot(QuadVec(plane.point) - QuadVec(ray.origin), plane.normal) /
+                       quad_dot(QuadVec(ray.direction), plane.normal);
+    const Bounded t = look.distance();
+    contradictions += error_of(t.value, exact) > t.error;
+    contradictions += sure_distance_to(plane, ray, side) != distance_to(plane, ray, side)->value;
+  }
+  BOOST_TEST(contradictions == 0);
+  BOOST_TEST(sure > count / 2);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
