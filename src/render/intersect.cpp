@@ -133,6 +133,18 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
     favourite_earliest = t.value - t.error;
     latest = std::min(latest, t_latest);
   };
+  // Planes first: what lies behind one need not be searched for spheres.
+  const PlaneLookRay plane_look{norm.length, sum_of_sizes(ray.origin)};
+  for (const std::size_t i : scene.visible_planes()) {
+    const SurfaceId id = scene.plane_id(i);
+    if (id == ray.from) continue;
+    const PlaneLook look(ray, plane_look, scene.data().planes[i], scene.plane_look(i), region.side_of(i));
+    if (look.surely_approaches()) {
+      prefer(id, look.distance());
+    } else if (!look.surely_recedes()) {
+      settle(id);
+    }
+  }
   const auto consider = [&](const LookBounds& bounds, const LeafSphere& sphere, auto&& where_unsure) {
     const FirstLook look(ray, bounds, sphere.center, sphere.radius);
     if (look.surely_passes(bounds) || sphere.id == ray.from || region.is_inside(sphere.id)) return;
@@ -149,17 +161,6 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
     });
     return false;
   });
-  const PlaneLookRay plane_look{norm.length, sum_of_sizes(ray.origin)};
-  for (const std::size_t i : scene.visible_planes()) {
-    const SurfaceId id = scene.plane_id(i);
-    if (id == ray.from) continue;
-    const PlaneLook look(ray, plane_look, scene.data().planes[i], scene.plane_look(i), region.side_of(i));
-    if (look.surely_approaches()) {
-      prefer(id, look.distance());
-    } else if (!look.surely_recedes()) {
-      settle(id);
-    }
-  }
   if (favourite != SurfaceId::none) {
     // Nothing else is left: where the plane is met is all that is asked.
     if (best.surface == SurfaceId::none && !scene.is_sphere(favourite)) {
@@ -176,12 +177,6 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
   const Vec3 normal =
       best.meeting == Meeting::entry ? normal_at(entry, ray.direction) : exit_normal(ray, norm, sphere, best.surface);
   return sphere_hit(sphere, best.surface, t, normal);
-}
-
-bool is_on_path_side(const Scene& scene, std::size_t light, SurfaceId surface, const Region& region) noexcept {
-  if (scene.is_sphere(surface)) return true;
-  const std::size_t plane = index_of(surface) - scene.sphere_count();
-  return scene.light_side(light, plane) == region.side_of(plane);
 }
 
 bool is_shut_off(const Scene& scene, std::size_t light_index, const Region& region) noexcept {

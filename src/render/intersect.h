@@ -16,7 +16,11 @@ std::optional<Hit> nearest_hit(const Scene& scene, const Ray& ray, const Region&
 
 /// False for a light that is in the plane `surface` or behind it, which a rounded point of the plane may not tell; a
 /// sphere leaves that to the normal.
-bool is_on_path_side(const Scene& scene, std::size_t light, SurfaceId surface, const Region& region) noexcept;
+inline bool is_on_path_side(const Scene& scene, std::size_t light, SurfaceId surface, const Region& region) noexcept {
+  if (scene.is_sphere(surface)) return true;
+  const std::size_t plane = index_of(surface) - scene.sphere_count();
+  return scene.light_side(light, plane) == region.side_of(plane);
+}
 
 /// Whether light number `light` reaches no point of a path in `region`, wherever that is: one of the two is behind a
 /// plane or within a sphere, and the other is not.

@@ -12,7 +12,7 @@ namespace tessera::render {
 /// What one unblocked light adds:
 /// I (diffuse color N.L + specular (R.V)^shininess), R being L mirrored at N; with Shade::blinn (N.H)^shininess,
 /// H halfway between L and V. Nothing where N.L <= 0; no highlight where R.V <= 0.
-/// shapes:  normal, to_light and to_viewer are unit vectors; normal faces the viewer
+/// shapes:  normal, to_light and to_viewer are unit vectors, to_viewer any without a highlight; normal faces the viewer
 /// source:  Phong, Illumination for computer generated pictures (1975); Blinn (1977)
 inline Rgb reflected_light(const Material& material, const Rgb& intensity, Shade shade, const Vec3& normal,
                            const Vec3& to_light, const Vec3& to_viewer) noexcept {

@@ -21,8 +21,7 @@ CheckerAxes::CheckerAxes(const Plane& plane) noexcept {
   v = cross(normal, u);
 }
 
-Cell cell_at(const Plane& plane, const Vec3& point) noexcept {
-  if (!plane.checker) return Cell::even;
+Cell board_cell_at(const Plane& plane, const Vec3& point) noexcept {
   const CheckerAxes axes(plane);
   const Vec3 offset = point - plane.point;
   const double size = plane.checker->size;

@@ -124,8 +124,14 @@ struct CheckerAxes {
   explicit CheckerAxes(const Plane& plane) noexcept;
 };
 
-/// The cell at a point of a plane: floor(offset.u / size) + floor(offset.v / size), even or odd.
-Cell cell_at(const Plane& plane, const Vec3& point) noexcept;
+/// The cell at a point of a board: floor(offset.u / size) + floor(offset.v / size), even or odd.
+/// requires: plane.checker
+Cell board_cell_at(const Plane& plane, const Vec3& point) noexcept;
+
+/// The cell at a point of any plane.
+inline Cell cell_at(const Plane& plane, const Vec3& point) noexcept {
+  return plane.checker ? board_cell_at(plane, point) : Cell::even;
+}
 
 /// The material of a cell: the plane's own, or on the odd ones of a board the checker's.
 inline MaterialIndex material_of(const Plane& plane, Cell cell) noexcept {

@@ -30,7 +30,8 @@ Rgb local_radiance(const Scene& scene, const Hit& hit, const Material& material,
   Rgb sum = data.environment.ambient * (material.ambient * material.color);
   if (material.diffuse == 0 && material.specular == 0) return sum;
 
-  const Vec3 to_viewer = normalized(-incoming);
+  // Only a highlight asks for the viewer.
+  const Vec3 to_viewer = material.specular > 0 ? normalized(-incoming) : Vec3{};
   for (std::size_t i = 0; i != data.lights.size(); ++i) {
     const Light& light = data.lights[i];
     const Vec3 reach = light.kind == LightKind::point ? light.vector - hit.point : -light.vector;
