@@ -14,20 +14,6 @@ namespace tessera::render {
 namespace {
 
 constexpr double u = kUnitRoundoff;
-/// What a few operations may round a unit vector or a cosine by.
-constexpr double kRounding = 16 * u;
-/// For the second order of what is treated as linear.
-constexpr double kGrowth = 1.01;
-/// Beyond this the second order matters.
-constexpr double kLargest = 0x1p-10;
-
-/// The ray in a length of direction that can be squared, as nearest_hit() takes it.
-Ray squarable(Ray ray) {
-  int exponent = 0;
-  ray.direction = rescaled(ray.direction, exponent);
-  return ray;
-}
-
 bool holds(const std::vector<SurfaceId>& ids, SurfaceId id) {
   return std::binary_search(ids.begin(), ids.end(), id);
 }
@@ -41,24 +27,43 @@ double largest_channel(const Rgb& c) {
 void PathError::on_hit(const PathVertex& vertex) {
   if (!is_certified_) return;
   const bool is_sphere = scene_.is_sphere(vertex.hit.surface);
-  const std::optional<Arrival> arrival = !is_sphere                              ? arrival_at_plane(vertex)
-                                         : vertex.hit.surface == vertex.ray.from ? arrival_at_own_exit(vertex)
-                                                                                 : arrival_at_sphere(vertex);
-  if (!arrival) return give_up();
-  check_first(vertex.ray, vertex.hit.surface, arrival->latest);
-  if (!is_sphere) check_cell(scene_.plane(vertex.hit.surface), vertex.hit.point, arrival->position_error);
+  const std::optional<HitError> error = error_at(vertex);
+  if (!error) return give_up();
+  check_first(vertex.ray, vertex.hit.surface, error->latest);
+  if (!is_sphere) check_cell(scene_.plane(vertex.hit.surface), vertex.hit.point, error->mirrored.position);
 
   const double k = vertex.material.reflection;
-  place_ = {vertex.hit.surface, vertex.hit.point,        vertex.normal,           normalized(-vertex.ray.direction),
-            &vertex.material,   (1 - k) * vertex.weight, arrival->position_error, arrival->normal_error,
-            direction_error_};
+  place_ = {vertex.hit.surface,
+            vertex.hit.point,
+            vertex.normal,
+            normalized(-vertex.ray.direction),
+            &vertex.material,
+            (1 - k) * vertex.weight,
+            error->mirrored.position,
+            error->normal,
+            ray_error_.direction};
   remaining_weight_ = k * vertex.weight;
   ++vertices_;
   add(scene_.data().environment.ambient * (vertex.material.ambient * vertex.material.color), {});
 
-  position_error_ = arrival->position_error;
-  line_error_ = arrival->line_error;
-  direction_error_ = arrival->mirrored_error;
+  ray_error_ = error->mirrored;
+}
+
+std::optional<HitError> PathError::error_at(const PathVertex& vertex) {
+  const auto& [ray, hit, cell, normal, material, weight] = vertex;
+  if (!scene_.is_sphere(hit.surface)) {
+    const int side = region_.side_of(index_of(hit.surface) - scene_.sphere_count());
+    return error_of_hit(scene_.plane(hit.surface), side, ray, hit, ray_error_);
+  }
+  const Sphere& sphere = scene_.sphere(hit.surface);
+  if (hit.surface == ray.from) {
+    const double chord_error = error_of_chord(sphere.radius, place_.normal_error, ray_error_);
+    return inner_run_.next(sphere, hit, hit.t * length(ray.direction), chord_error);
+  }
+  const bool is_inside = region_.is_inside(hit.surface);
+  const auto error = error_of_hit(sphere, is_inside ? SphereSide::inner : SphereSide::outer, ray, hit, ray_error_);
+  if (error && is_inside) inner_run_ = InnerRun(*error);
+  return error;
 }
 
 void PathError::on_miss(const Ray& ray, double) {
@@ -75,99 +80,14 @@ double PathError::bound() const noexcept {
   return bound >= 0 ? bound : std::numeric_limits<double>::infinity();
 }
 
-/// How far off the line may be at a distance from its origin.
-double PathError::shift_at(double distance) const noexcept {
-  return kGrowth * (line_error_ + direction_error_ * (distance + position_error_));
-}
-
-// The hit is off by shift / cosine along the surface, and so the mirrored ray by shift across its direction. Within the
-// limit on that the cosine itself changes by less than 1 %.
-std::optional<PathError::Arrival> PathError::arrival_at_sphere(const PathVertex& vertex) {
-  const Ray ray = squarable(vertex.ray);
-  const DirectionNorm norm = norm_of(ray.direction);
-  const auto& [center, radius, material] = scene_.sphere(vertex.hit.surface);
-  const bool is_inside = region_.is_inside(vertex.hit.surface);
-  const Passage passage = passage_of(ray, norm, center, radius);
-  const double rounding =
-      half_chord(passage).error / (radius * norm.length) + kRounding + kRounding * u * length(passage.f.hi) / radius;
-  const double cosine = std::abs(dot(vertex.normal, ray.direction)) / norm.length - rounding - kRounding;
-  if (!(cosine > 0) || direction_error_ > kLargest * cosine) return std::nullopt;
-
-  const std::optional<Crossing> crossing =
-      is_inside ? std::optional(exit_from(ray, norm, center, radius)) : entry_into(ray, norm, center, radius);
-  if (!crossing) return std::nullopt;
-  const double distance = crossing->t.value * norm.length;
-  const double shift = shift_at(distance);
-  const double along = kGrowth * shift / cosine;
-  if (along > kLargest * radius * cosine) return std::nullopt;
-
-  Arrival arrival;
-  arrival.normal_error = along / radius + rounding;
-  const double rounded = radius * rounding + 2 * u * (radius + length(vertex.hit.point));
-  arrival.position_error = along + rounded;
-  arrival.line_error = kGrowth * shift + rounded;
-  arrival.latest = distance + along + crossing->t.error * norm.length;
-  arrival.mirrored_error = direction_error_ + 2 * arrival.normal_error + kRounding;
-  if (is_inside) inner_run_ = {arrival.normal_error + arrival.mirrored_error, 0};
-  return arrival;
-}
-
-// Within one sphere normal and direction turn by the same angle from hit to hit, in the plane of both. Errors a and b
-// that they begin with have grown to at most (1 + 4m)(a + b) after m hits: in the plane by twice the angle's error a
-// hit, across it because N_m = p N_0 + q D_0 with |p| <= 1 + 2m, |q| <= 2m (|sin 2mx| <= 2m |sin x|). Every hit adds
-// roundings, which grow on.
-std::optional<PathError::Arrival> PathError::arrival_at_own_exit(const PathVertex& vertex) {
-  const double radius = scene_.sphere(vertex.hit.surface).radius;
-  const double m = ++inner_run_.count;
-  const double error = kGrowth * (1 + 4 * m) * inner_run_.start_error + 2 * kRounding * m * (1 + 2 * m);
-  if (!(error < kLargest)) return std::nullopt;
-  const double distance = vertex.hit.t * length(vertex.ray.direction);
-  Arrival arrival;
-  arrival.normal_error = error;
-  arrival.position_error = radius * error + 2 * u * (radius + length(vertex.hit.point));
-  arrival.line_error = arrival.position_error;
-  arrival.latest = distance + own_chord_error(radius);
-  arrival.mirrored_error = error;
-  return arrival;
-}
-
-std::optional<PathError::Arrival> PathError::arrival_at_plane(const PathVertex& vertex) {
-  const Ray ray = squarable(vertex.ray);
-  const double length_of_direction = length(ray.direction);
-  const double cosine = std::abs(dot(vertex.normal, ray.direction)) / length_of_direction - kRounding;
-  if (!(cosine > 0) || direction_error_ > kLargest * cosine) return std::nullopt;
-
-  const std::size_t index = index_of(vertex.hit.surface) - scene_.sphere_count();
-  const auto t = distance_to(scene_.plane(vertex.hit.surface), ray, region_.side_of(index));
-  if (!t) return std::nullopt;
-  const double distance = t->value * length_of_direction;
-  const double shift = shift_at(distance);
-  const double along = kGrowth * shift / cosine;
-  const double late = t->error * length_of_direction;
-  const double rounded = late + 4 * u * (length(ray.origin) + distance);
-
-  Arrival arrival;
-  arrival.normal_error = kRounding;
-  arrival.position_error = along + rounded;
-  arrival.line_error = kGrowth * shift + rounded;
-  arrival.latest = distance + along + late;
-  arrival.mirrored_error = direction_error_ + 2 * kRounding + kRounding;
-  return arrival;
-}
-
-/// How far off the length of a chord may be that starts at the last hit.
-double PathError::own_chord_error(double radius) const noexcept {
-  return 2 * kGrowth * radius * (place_.normal_error + direction_error_ + kRounding);
-}
-
 // A camera ray is exact, and so is what it meets first.
 void PathError::check_first(const Ray& ray, SurfaceId hit, double latest) {
   if (vertices_ == 0) return;
   const Vec3 direction = normalized(ray.direction);
   // The tube begins where the true origin may be, which is rounded once more.
-  const double line_error = kGrowth * line_error_ + 2 * u * length(ray.origin);
-  const Tube tube(ray.origin - position_error_ * direction, direction, latest + position_error_, line_error,
-                  kGrowth * direction_error_);
+  const double line_error = kSecondOrder * ray_error_.line + 2 * u * length(ray.origin);
+  const Tube tube(ray.origin - ray_error_.position * direction, direction, latest + ray_error_.position, line_error,
+                  kSecondOrder * ray_error_.direction);
   const auto is_other = [&](SurfaceId id) {
     return id != hit && id != ray.from && !scene_.are_coincident(id, hit) && !scene_.are_coincident(id, ray.from);
   };
@@ -182,7 +102,7 @@ void PathError::check_first(const Ray& ray, SurfaceId hit, double latest) {
     if (is_other(id) && !tube.surely_stays_in(wall.center, wall.radius)) give_up();
     if (id == ray.from && id != hit) {
       const double chord = 2 * wall.radius * std::abs(dot(ray.from_normal, direction));
-      if (!(chord - own_chord_error(wall.radius) > latest)) give_up();
+      if (!(chord - error_of_chord(wall.radius, place_.normal_error, ray_error_) > latest)) give_up();
     }
   }
   for (const std::size_t i : scene_.visible_planes()) {
@@ -196,7 +116,7 @@ void PathError::check_cell(const Plane& plane, const Vec3& point, double positio
   if (!plane.checker) return;
   const CheckerAxes axes(plane);
   const Vec3 offset = point - plane.point;
-  const double error = kGrowth * position_error + kRounding * length(offset);
+  const double error = kSecondOrder * position_error + kUnitRounding * length(offset);
   for (const Vec3& axis : {axes.u, axes.v}) {
     const double way = dot(offset, axis);
     const double cell = std::floor((way - error) / plane.checker->size);
@@ -214,12 +134,12 @@ void PathError::on_light(std::size_t index, bool is_lit) {
   const bool is_point = light.kind == LightKind::point;
   const Vec3 way = is_point ? light.vector - place_.point : -light.vector;
   const double distance = is_point ? length(way) : std::numeric_limits<double>::infinity();
-  if (!(place_.position_error < kLargest * distance)) return give_up();
+  if (!(place_.position_error < kLinearLimit * distance)) return give_up();
   const Vec3 to_light = normalized(way);
-  const double way_error = kGrowth * place_.position_error / distance + kRounding;
+  const double way_error = kSecondOrder * place_.position_error / distance + kUnitRounding;
 
   const double n_l = dot(place_.normal, to_light);
-  const double n_l_error = place_.normal_error + way_error + kRounding;
+  const double n_l_error = place_.normal_error + way_error + kUnitRounding;
   if (std::abs(n_l) <= n_l_error) return give_up();
   if (n_l < 0 || is_shut_off(scene_, index, region_)) return;
   check_shadow(index, is_lit, to_light, distance, way_error);
@@ -237,7 +157,7 @@ void PathError::check_shadow(std::size_t index, bool is_lit, const Vec3& to_ligh
   const Light& light = scene_.data().lights[index];
   const Placement& placement = scene_.light_placement(index);
   const double rounded_end = light.kind == LightKind::point ? 2 * u * distance : 0;
-  const Tube tube(place_.point, to_light, distance, kGrowth * place_.position_error + rounded_end, 0);
+  const Tube tube(place_.point, to_light, distance, kSecondOrder * place_.position_error + rounded_end, 0);
   bool is_surely_blocked = false;
   bool is_surely_free = true;
   scene_.visit_where([&](const Box& box) { return is_certified_ && tube.may_meet(box); },
@@ -259,7 +179,8 @@ void PathError::check_shadow(std::size_t index, bool is_lit, const Vec3& to_ligh
   if (is_lit ? !is_surely_free : !is_surely_blocked) give_up();
 }
 
-PathError::Highlight PathError::highlight_of(const Vec3& to_light, double n_l, double n_l_error, double way_error) {
+PathError::Highlight PathError::highlight_of(const Vec3& to_light, double n_l, double n_l_error,
+                                             double way_error) const {
   const Material& material = *place_.material;
   if (material.specular == 0) return {};
   double cosine = 0;
@@ -267,15 +188,16 @@ PathError::Highlight PathError::highlight_of(const Vec3& to_light, double n_l, d
   if (shade_ == Shade::phong) {
     const double n_v = dot(place_.normal, place_.to_viewer);
     cosine = 2 * n_l * n_v - dot(to_light, place_.to_viewer);
-    const double n_v_error = place_.normal_error + place_.direction_error + kRounding;
-    error = 2 * (n_l_error + n_v_error) + way_error + place_.direction_error + kRounding;
+    const double n_v_error = place_.normal_error + place_.direction_error + kUnitRounding;
+    error = 2 * (n_l_error + n_v_error) + way_error + place_.direction_error + kUnitRounding;
   } else {
     const Vec3 sum = to_light + place_.to_viewer;
     cosine = dot(place_.normal, normalized(sum));
-    error = place_.normal_error + 2 * (way_error + place_.direction_error + kRounding) / length(sum) + kRounding;
+    error =
+        place_.normal_error + 2 * (way_error + place_.direction_error + kUnitRounding) / length(sum) + kUnitRounding;
   }
-  const double most = cosine + kGrowth * error;
-  const double least = cosine - kGrowth * error;
+  const double most = cosine + kSecondOrder * error;
+  const double least = cosine - kSecondOrder * error;
   if (!(most > 0)) return {};
   const auto raised = [&](double base) { return power(std::clamp(base, 0.0, 1.0), material.shininess); };
   const double highest = raised(most);

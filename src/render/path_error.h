@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "render/color.h"
+#include "render/hit_error.h"
 #include "render/path_observer.h"
 #include "render/region.h"
 #include "render/scene.h"
@@ -13,17 +14,11 @@ namespace tessera::render {
 
 /// Bounds how far rounding has taken a path's radiance from that of the same camera ray in exact arithmetic.
 ///
-/// Along the path it carries how far the ray's line and its direction may be off. A hit on a sphere of radius r at
-/// distance T and angle theta turns a displacement D = line + T direction of the line into D / cos theta of the hit and
-/// D / (r cos theta) of the normal; a mirror adds twice the latter to the direction and leaves the line D off, as a
-/// mirror image would be. Reflections within one sphere grow linearly instead. Every
-/// decision of the path is asked whether any line within these errors could decide otherwise: the first surface, the
-/// cell of a board, each light's side and shadow. If one could, the pixel is uncertified and the bound infinite, for an
-/// edge may lie between the two.
+/// Along the path it carries how far the ray may be off, see hit_error.h. Every decision of the path is asked whether
+/// any ray within that could decide otherwise: the first surface, the cell of a board, each light's side and shadow. If
+/// one could, the pixel is uncertified and the bound infinite, for an edge may lie between the two.
 ///
-/// error:   underflow aside. Of first order in the errors: each growth is taken 1 % larger than it is, and beyond
-/// 2^-10,
-///          where the second order matters, the path counts as uncertified
+/// error:   holds on every certified path, underflow aside
 /// source:  the propagation of Igehy, Tracing ray differentials (1999), with bounds in place of differentials
 class PathError final : public PathObserver {
  public:
@@ -39,14 +34,6 @@ class PathError final : public PathObserver {
   double bound() const noexcept;
 
  private:
-  /// What is known of a hit.
-  struct Arrival {
-    double position_error = 0;
-    double line_error = 0;      ///< of a ray mirrored there, across its direction
-    double normal_error = 0;    ///< of the unit normal
-    double mirrored_error = 0;  ///< of the direction of a ray mirrored there
-    double latest = 0;          ///< the distance from the ray's origin is at most this
-  };
   /// The hit that the path is at, as its lights see it.
   struct Place {
     SurfaceId surface = SurfaceId::none;
@@ -59,26 +46,16 @@ class PathError final : public PathObserver {
     double normal_error = 0;
     double direction_error = 0;  ///< of the viewer's direction
   };
-  /// Hits one after the other on the inner side of one sphere.
-  struct InnerRun {
-    double start_error = 0;  ///< of the normal and the direction that it began with, together
-    double count = 0;        ///< of hits since
-  };
   struct Highlight {
     double value = 0;
     double error = 0;
   };
 
-  std::optional<Arrival> arrival_at_sphere(const PathVertex& vertex);
-  std::optional<Arrival> arrival_at_own_exit(const PathVertex& vertex);
-  std::optional<Arrival> arrival_at_plane(const PathVertex& vertex);
-  double shift_at(double distance) const noexcept;
-  double own_chord_error(double radius) const noexcept;
-
+  std::optional<HitError> error_at(const PathVertex& vertex);
   void check_first(const Ray& ray, SurfaceId hit, double latest);
   void check_cell(const Plane& plane, const Vec3& point, double position_error);
   void check_shadow(std::size_t light, bool is_lit, const Vec3& to_light, double distance, double way_error);
-  Highlight highlight_of(const Vec3& to_light, double n_l, double n_l_error, double way_error);
+  Highlight highlight_of(const Vec3& to_light, double n_l, double n_l_error, double way_error) const;
 
   void add(const Rgb& term, const Rgb& error);
   void give_up() noexcept { is_certified_ = false; }
@@ -88,9 +65,7 @@ class PathError final : public PathObserver {
   Shade shade_;
 
   bool is_certified_ = true;
-  double position_error_ = 0;   ///< of the next ray's origin
-  double line_error_ = 0;       ///< the same across its direction
-  double direction_error_ = 0;  ///< of its direction, relative to its length
+  RayError ray_error_;  ///< of the next ray
   InnerRun inner_run_;
   Place place_;
 
