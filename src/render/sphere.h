@@ -59,9 +59,10 @@ inline LookBounds look_bounds(const DirectionNorm& norm, double reach) noexcept 
   return {inverse, inverse_length, 0x1p-36 * reach * reach, 0x1p-49 * t, 0x1p-29 * t};
 }
 
-/// The same for a second look at one sphere: bounds for all spheres say nothing about one that is tiny beside the
-/// scene. error:   F is |C - O| + r; the half chord of a sphere met is at least 2^-24 F, and known to 2^-48 F^2 / 2^-24
-/// F
+/// The same for a second look at one sphere, for bounds on all spheres say nothing of one that is tiny beside the
+/// scene.
+///
+/// error:   F is |C - O| + r; the half chord of a sphere met is at least 2^-24 F, and known to 2^-48 F^2 / 2^-24 F
 inline LookBounds closer_bounds(const LookBounds& first, const Vec3& origin, const Vec3& center,
                                 double radius) noexcept {
   const double reach = length(center - origin) + radius;

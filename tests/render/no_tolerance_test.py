@@ -6,8 +6,8 @@ import pathlib
 import re
 import sys
 
-TRACING = """bounded bvh certified decide dyadic exact exact_formula intersect order phong plane ray region scene sphere
-tile_renderer tracer vec3""".split()
+TRACING = """bounded bvh certified decide dyadic exact exact_formula intersect order path_observer phong plane ray ray_counts
+region scene signature signature_observer sphere tile_renderer tracer vec3""".split()
 SMALL = re.compile(r"\b\d+(?:\.\d*)?e-\d+|\b0\.0\d*", re.IGNORECASE)
 NAMED = re.compile(r"epsilon|\beps\b|\bt_?min\b|tolerance|\bbias\b|\bnudge", re.IGNORECASE)
 
