@@ -38,7 +38,7 @@ class TileRenderer {
   TileRenderer(const Scene& scene, PixelFormat format, Tracer tracer = Tracer::fast);
 
   /// Renders the pixels of `tile`, in coordinates of the whole picture, and calls `between_slices` every 0.1 ms or so.
-  /// The reference knows no bound on its own error: 0.
+  /// requires: a reference is not asked for errors, for it knows no bound on its own
   RayCounts render(const Rect& tile, const TilePixels& out, const std::function<void()>& between_slices) const;
 
  private:
