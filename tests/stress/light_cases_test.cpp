@@ -66,6 +66,27 @@ struct Umbra {
   }
 };
 
+/// Over several pictures.
+struct UmbraCount {
+  std::size_t off = 0;
+  std::size_t pixels = 0;
+  std::size_t different = 0;
+  bool all_are_seen = true;
+
+  void include(const Umbra& umbra) {
+    off += umbra.off;
+    pixels += umbra.pixels;
+    different += umbra.different;
+    all_are_seen = all_are_seen && umbra.dark > 100;
+  }
+
+  void report(Verdict& verdict, const std::string& seen) const {
+    verdict.none_wrong("pixels off by more than 1", off, pixels);
+    verdict.none_wrong("pixels off at all", different, pixels);
+    verdict.require(all_are_seen, seen);
+  }
+};
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(light_cases)
@@ -74,10 +95,7 @@ BOOST_AUTO_TEST_SUITE(light_cases)
 BOOST_AUTO_TEST_CASE(case_22_shadow_of_a_tiny_sphere_on_a_large_one) {
   Verdict verdict(22, "shadow matches the cone formula to 1 px, occluder radius 1e-2 to 1e-12");
   Random random(22);
-  std::size_t off = 0;
-  std::size_t pixels = 0;
-  std::size_t different = 0;
-  bool all_shadows_seen = true;
+  UmbraCount count;
   for (int k = 2; k <= 12; ++k) {
     const double q = std::pow(10.0, -k);
     for (int i = 0; i != 3; ++i) {
@@ -92,26 +110,17 @@ BOOST_AUTO_TEST_CASE(case_22_shadow_of_a_tiny_sphere_on_a_large_one) {
       add_point_light(data, {3 * std::cos(turn), 3 * std::sin(turn), random.uniform(2, 5)});
       const double half_angle = 4 * q / length(eye - contact);
       data.camera = Camera{.eye = eye, .target = contact, .fov = 2 * half_angle * 180 / kPi};
-      const Umbra umbra(data, 64);
-      off += umbra.off;
-      pixels += umbra.pixels;
-      different += umbra.different;
-      all_shadows_seen = all_shadows_seen && umbra.dark > 100;
+      count.include(Umbra(data, 64));
     }
   }
-  verdict.none_wrong("pixels off by more than 1", off, pixels);
-  verdict.none_wrong("pixels off at all", different, pixels);
-  verdict.require(all_shadows_seen, "a shadow in each picture");
+  count.report(verdict, "a shadow in each picture");
 }
 
 // From the light's place the blocker hides the cone of half angle asin(q / D1), which the camera sees from beside it.
 BOOST_AUTO_TEST_CASE(case_27_umbra_in_a_hollow_sphere) {
   Verdict verdict(27, "umbra half angle asin(q/D1) to 1 px");
   Random random(27);
-  std::size_t off = 0;
-  std::size_t pixels = 0;
-  std::size_t different = 0;
-  bool all_shadows_seen = true;
+  UmbraCount count;
   for (int i = 0; i != 30; ++i) {
     const double q = random.over_decades(1e-3, 0.2);
     const double distance = random.uniform(2, 20) * q;
@@ -125,15 +134,9 @@ BOOST_AUTO_TEST_CASE(case_27_umbra_in_a_hollow_sphere) {
     data.camera = Camera{.eye = light + 3 * q * random.perpendicular_to(axis), .target = light + 5 * axis};
     data.camera->up = random.perpendicular_to(axis);
     data.camera->fov = 4 * std::asin(q / distance) * 180 / kPi;
-    const Umbra umbra(data, 64);
-    off += umbra.off;
-    pixels += umbra.pixels;
-    different += umbra.different;
-    all_shadows_seen = all_shadows_seen && umbra.dark > 100;
+    count.include(Umbra(data, 64));
   }
-  verdict.none_wrong("pixels off by more than 1", off, pixels);
-  verdict.none_wrong("pixels off at all", different, pixels);
-  verdict.require(all_shadows_seen, "an umbra in each picture");
+  count.report(verdict, "an umbra in each picture");
 }
 
 // A light at F l against one along -l: at P, N.L differs by ((N.l)(P.l) - N.P) / F to first order, which is at most
