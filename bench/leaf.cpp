@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "render/bvh.h"
+#include "render/box.h"
 #include "render/sphere.h"
 
 namespace {

@@ -48,7 +48,7 @@ ExitCode run_info(const InfoOptions& options) {
     std::printf("radii        %.6g to %.6g\n", least->radius, most->radius);
   }
   const std::string unused = unused_parts(data);
-  const render::Scene scene(std::move(data), render::Kernel::tree);
+  const render::Scene scene(std::move(data), render::Kernel::automatic);
   const std::size_t bytes = scene.bvh().memory_bytes() + spheres * sizeof(render::Sphere);
   std::printf("memory       %.1f MiB a rank", static_cast<double>(bytes) / (1 << 20));
   if (spheres > 0) std::printf(", %.0f bytes a sphere", static_cast<double>(bytes) / static_cast<double>(spheres));

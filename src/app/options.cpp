@@ -146,10 +146,16 @@ void add_schedule_options(CLI::App& app, RenderOptions& options) {
           },
           "tiles that a worker holds [auto]")
       ->type_name("auto|N");
-  add_choice<render::Kernel>(
-      *group, "--kernel",
-      {{"auto", render::Kernel::tree}, {"scalar", render::Kernel::tree}, {"brute", render::Kernel::brute}},
-      "how spheres are searched [auto]", [&](auto kernel) { options.kernel = kernel; });
+  add_choice<render::Kernel>(*group, "--kernel",
+                             {{"auto", render::Kernel::automatic},
+                              {"scalar", render::Kernel::scalar},
+                              {"avx2", render::Kernel::avx2},
+                              {"brute", render::Kernel::brute}},
+                             "how spheres are searched [auto]", [&](auto kernel) {
+                               if (!is_supported(kernel))
+                                 throw UsageError("--kernel: this machine has no AVX2 and FMA instructions");
+                               options.kernel = kernel;
+                             });
 }
 
 void add_accuracy_options(CLI::App& app, RenderOptions& options) {

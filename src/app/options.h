@@ -40,7 +40,7 @@ struct RenderOptions {
   scheduler::Policy policy = scheduler::Policy::dynamic;
   scheduler::MasterRole master = scheduler::MasterRole::automatic;
   std::optional<unsigned> prefetch;
-  render::Kernel kernel = render::Kernel::tree;
+  render::Kernel kernel = render::Kernel::automatic;
   render::Tracer tracer = render::Tracer::fast;
 
   std::optional<std::filesystem::path> signature;

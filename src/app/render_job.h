@@ -28,7 +28,7 @@ struct RenderJob {
   render::SceneData scene;  ///< with a camera
   render::Rect area;        ///< the part of the picture to render
   render::PixelFormat format = render::PixelFormat::rgb8;
-  render::Kernel kernel = render::Kernel::tree;
+  render::Kernel kernel = render::Kernel::automatic;
   render::Tracer tracer = render::Tracer::fast;
   Layers layers;
   std::uint32_t tile_width = 16;

@@ -1,44 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/bvh.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include "render/exact.h"
 
 namespace tessera::render {
 
-void Box::include(const Box& other) noexcept {
-  lo = {std::min(lo.x, other.lo.x), std::min(lo.y, other.lo.y), std::min(lo.z, other.lo.z)};
-  hi = {std::max(hi.x, other.hi.x), std::max(hi.y, other.hi.y), std::max(hi.z, other.hi.z)};
-}
-
-bool Box::contains(const Vec3& p) const noexcept {
-  return lo.x <= p.x && p.x <= hi.x && lo.y <= p.y && p.y <= hi.y && lo.z <= p.z && p.z <= hi.z;
-}
-
-double Box::half_area() const noexcept {
-  const Vec3 d = hi - lo;
-  return d.x * d.y + d.y * d.z + d.z * d.x;
-}
-
-double Box::reach_from(const Vec3& p) const noexcept {
-  const Vec3 a = p - lo;
-  const Vec3 b = hi - p;
-  return std::max(a.x, b.x) + std::max(a.y, b.y) + std::max(a.z, b.z);
-}
-
-Box bounds_of(const Vec3& center, double radius) noexcept {
-  // A computed hit may belong to a sphere larger by some 10u; then round each face outward.
-  const double wide = radius * (1 + 64 * kUnitRoundoff);
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  const auto down = [&](double x) { return std::nextafter(x - wide, -kInf); };
-  const auto up = [&](double x) { return std::nextafter(x + wide, kInf); };
-  return {{down(center.x), down(center.y), down(center.z)}, {up(center.x), up(center.y), up(center.z)}};
-}
-
 std::size_t Bvh::memory_bytes() const noexcept {
-  return nodes_.size() * sizeof(Node) + spheres_.size() * sizeof(LeafSphere);
+  return nodes_.size() * sizeof(TreeNode) + leaves_.size() * sizeof(TreeLeaf);
+}
+
+Box Bvh::child_box(const TreeNode& node, int child) const noexcept {
+  const auto corner = [&](int side) {
+    return Vec3{node.bounds[0][side][child], node.bounds[1][side][child], node.bounds[2][side][child]};
+  };
+  Box box{corner(0), corner(1)};
+  if (box.is_empty()) return box;
+  // Back in the scene's coordinates each side rounds twice.
+  const auto outward = [&](double x, double base, double slack) { return base + (x + slack) / space_.scale; };
+  const double base_size = sum_of_sizes(space_.base) * space_.scale;
+  const auto slack_of = [&](double x) { return 0x1p-50 * (std::abs(x) + base_size); };
+  const auto lower = [&](double x, double base) { return outward(x, base, -slack_of(x)); };
+  const auto upper = [&](double x, double base) { return outward(x, base, slack_of(x)); };
+  box.lo = {lower(box.lo.x, space_.base.x), lower(box.lo.y, space_.base.y), lower(box.lo.z, space_.base.z)};
+  box.hi = {upper(box.hi.x, space_.base.x), upper(box.hi.y, space_.base.y), upper(box.hi.z, space_.base.z)};
+  return box;
 }
 
 }  // namespace tessera::render

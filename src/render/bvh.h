@@ -1,169 +1,163 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "render/box.h"
 #include "render/ray.h"
-#include "render/scene_data.h"
+#include "render/tree_space.h"
 
-// A binary bounding volume hierarchy over spheres: it finds the few that a ray may meet, and loses none.
+// A bounding volume hierarchy over spheres, eight children wide: it finds the few that a ray may meet, and loses none.
 namespace tessera::render {
 
-/// A sphere as the tree stores it, in leaf order.
-struct LeafSphere {
-  Vec3 center;
-  double radius;
-  SurfaceId id;
+inline constexpr int kTreeWidth = 8;
+
+/// A node's children, or nothing where there are fewer. They are stored in columns, so that one instruction sees all.
+struct alignas(32) TreeNode {
+  float bounds[3][2][kTreeWidth];  ///< by axis: low sides, high sides; in tree space
+  std::uint32_t child[kTreeWidth];
 };
 
-/// An axis-aligned box.
-struct Box {
-  Vec3 lo{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-          std::numeric_limits<double>::infinity()};
-  Vec3 hi{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-          -std::numeric_limits<double>::infinity()};
+/// Up to eight spheres in tree space, for a first look at all of them together.
+struct alignas(32) TreeLeaf {
+  /// Minus this is the radius in lanes that are left over: nothing can meet them.
+  static constexpr float kNowhere = 1e30F;
 
-  void include(const Box& other) noexcept;
-  bool contains(const Vec3& p) const noexcept;
-  double half_area() const noexcept;
-  /// The distance from `p` to the corner that is farthest from it, summed over the axes.
-  double reach_from(const Vec3& p) const noexcept;
+  float center[3][kTreeWidth];
+  float radius[kTreeWidth];  ///< with the sphere's share of the error; see TreeRay
+  SurfaceId id[kTreeWidth];  ///< none in the lanes that are left over
 };
 
-/// The box of a sphere, a little wider than the sphere: whatever sphere.h computes as hit lies inside.
-Box bounds_of(const Vec3& center, double radius) noexcept;
+/// A child: an inner node, or a leaf.
+struct TreeChild {
+  static constexpr std::uint32_t kLeafBit = 0x8000'0000;
+
+  static bool is_leaf(std::uint32_t child) noexcept { return (child & kLeafBit) != 0; }
+  static std::uint32_t index(std::uint32_t child) noexcept { return child & ~kLeafBit; }
+};
 
 class Bvh {
  public:
-  /// An inner node has count 0 and its children at first and first + 1, a leaf its spheres from first on.
-  struct Node {
-    Box box;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
-
-  /// Depth that no build exceeds, and so the room that a traversal needs.
-  static constexpr int kMaxDepth = 96;
+  /// Levels of inner nodes that no build exceeds, and so the room that a traversal needs.
+  static constexpr int kMaxDepth = 32;
+  static constexpr int kStackSize = kMaxDepth * (kTreeWidth - 1) + 1;
 
   Bvh() = default;
-  Bvh(std::vector<Node> nodes, std::vector<LeafSphere> spheres)
-      : nodes_(std::move(nodes)), spheres_(std::move(spheres)) {}
+  Bvh(const TreeSpace& space, std::vector<TreeNode> nodes, std::vector<TreeLeaf> leaves)
+      : space_(space), nodes_(std::move(nodes)), leaves_(std::move(leaves)) {}
 
-  std::span<const Node> nodes() const noexcept { return nodes_; }
-  std::span<const LeafSphere> spheres() const noexcept { return spheres_; }
+  const TreeSpace& space() const noexcept { return space_; }
+  /// The root is the first; none where there is no sphere that can be hit.
+  std::span<const TreeNode> nodes() const noexcept { return nodes_; }
+  std::span<const TreeLeaf> leaves() const noexcept { return leaves_; }
   std::size_t memory_bytes() const noexcept;
 
+  /// The box of a node's child, in scene coordinates.
+  Box child_box(const TreeNode& node, int child) const noexcept;
+
   /// Calls visit(sphere) for every sphere that the ray may meet before `t_max`, near boxes first. `visit` may
-  /// lower `t_max`; it returns true to end the search.
+  /// lower `t_max`; it returns true to end the search. The specification of what faster kernels do.
+  /// units:   t_max in multiples of |ray.direction|; inverse_length is 1 / |ray.direction|
   template <class Visit>
-  void visit_along(const Ray& ray, const double& t_max, Visit&& visit) const;
+  void visit_along(const Ray& ray, double inverse_length, const double& t_max, Visit&& visit) const;
 
   /// Calls visit(sphere) for every sphere in a leaf whose box, and all boxes around it, `meets(box)`.
   template <class Meets, class Visit>
   void visit_where(Meets&& meets, Visit&& visit) const;
 
  private:
-  std::vector<Node> nodes_;
-  std::vector<LeafSphere> spheres_;
+  TreeSpace space_;
+  std::vector<TreeNode> nodes_;
+  std::vector<TreeLeaf> leaves_;
 };
 
-/// A ray prepared for box tests: reciprocal direction, and per axis which side of a box is the near one.
-class SlabTest {
- public:
-  explicit SlabTest(const Ray& ray) noexcept
-      : origin_(ray.origin), inverse_{inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)} {}
-
-  /// Whether something entered at `t` can hold a hit that is not after `t_max`.
-  static bool is_before(double t, double t_max) noexcept { return t <= t_max * kSlack; }
-
-  /// Where the ray enters the box, or infinity where it passes it or enters after `t_max`.
-  /// error:   the slack covers the roundings of three slabs and of a sphere's t, so no hit before `t_max` is lost
-  double entry(const Box& box, double t_max) const noexcept {
-    double enter = 0;
-    double leave = std::numeric_limits<double>::infinity();
-    clip(box.lo.x, box.hi.x, origin_.x, inverse_.x, enter, leave);
-    clip(box.lo.y, box.hi.y, origin_.y, inverse_.y, enter, leave);
-    clip(box.lo.z, box.hi.z, origin_.z, inverse_.z, enter, leave);
-    const bool met = enter <= leave * kSlack && is_before(enter, t_max);
-    return met ? enter : std::numeric_limits<double>::infinity();
+/// Whether the ray meets a child's box before `t_max`, and if so where it enters.
+inline bool meets_child(const TreeNode& node, int child, const TreeRay& ray, float t_max, float& entry) noexcept {
+  float enter = 0;
+  float leave = t_max;
+  for (int axis = 0; axis != 3; ++axis) {
+    const auto& sides = node.bounds[axis];
+    const unsigned side = ray.near_side[axis];
+    enter = std::max(enter, (sides[side][child] - ray.near_origin[axis]) * ray.inverse[axis]);
+    leave = std::min(leave, (sides[1 - side][child] - ray.far_origin[axis]) * ray.inverse[axis]);
   }
+  entry = enter;
+  return enter <= leave * TreeRay::kSlack;
+}
 
- private:
-  static constexpr double kSlack = 1 + 0x1p-48;
-
-  /// A ray parallel to a slab is inside of it for all t or for none. A huge finite reciprocal says so without
-  /// 0 * infinity; a ray inside a face's own plane counts as outside, which loses nothing: boxes are wider than
-  /// their spheres.
-  static double inverse(double d) noexcept {
-    constexpr double kHuge = 0x1p1000;
-    return d == 0 ? kHuge : std::clamp(1 / d, -kHuge, kHuge);
+/// Whether the ray may meet a leaf's sphere before `t_max`: a first look in float.
+inline bool may_meet(const TreeLeaf& leaf, int lane, const TreeRay& ray, float t_max) noexcept {
+  float f[3];
+  for (int axis = 0; axis != 3; ++axis) f[axis] = leaf.center[axis][lane] - ray.origin[axis];
+  const float foot = f[0] * ray.direction[0] + f[1] * ray.direction[1] + f[2] * ray.direction[2];
+  float square = 0;
+  for (int axis = 0; axis != 3; ++axis) {
+    const float p = f[axis] - foot * ray.direction[axis];
+    square += p * p;
   }
-
-  static void clip(double lo, double hi, double origin, double inverse, double& enter, double& leave) noexcept {
-    const double near = ((inverse < 0 ? hi : lo) - origin) * inverse;
-    const double far = ((inverse < 0 ? lo : hi) - origin) * inverse;
-    enter = near > enter ? near : enter;
-    leave = far < leave ? far : leave;
-  }
-
-  Vec3 origin_;
-  Vec3 inverse_;
-};
+  const float reach = leaf.radius[lane] + ray.sphere_error;
+  return square <= reach * reach && foot >= -reach && foot - reach <= t_max;
+}
 
 template <class Visit>
-void Bvh::visit_along(const Ray& ray, const double& t_max, Visit&& visit) const {
+void Bvh::visit_along(const Ray& ray, double inverse_length, const double& t_max, Visit&& visit) const {
   if (nodes_.empty()) return;
-  const SlabTest slabs(ray);
+  const TreeRay tree_ray(space_, ray, inverse_length);
   struct Entry {
-    std::uint32_t node;
-    double t;
+    std::uint32_t child;
+    float t;
   };
-  std::array<Entry, kMaxDepth + 1> stack;
+  std::array<Entry, kStackSize> stack;
   std::size_t size = 0;
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-
-  const double root_entry = slabs.entry(nodes_[0].box, t_max);
-  if (root_entry < kNever) stack[size++] = {0, root_entry};
+  stack[size++] = {0, 0};
   while (size > 0) {
     const Entry top = stack[--size];
     // A hit found since this box was put aside may have made it superfluous.
-    if (!SlabTest::is_before(top.t, t_max)) continue;
-    const Node& node = nodes_[top.node];
-    if (node.count > 0) {
-      for (std::uint32_t i = node.first; i != node.first + node.count; ++i) {
-        if (visit(spheres_[i])) return;
+    const float latest = tree_ray.t_of(t_max);
+    if (!(top.t <= latest * TreeRay::kSlack)) continue;
+    if (TreeChild::is_leaf(top.child)) {
+      const TreeLeaf& leaf = leaves_[TreeChild::index(top.child)];
+      for (int lane = 0; lane != kTreeWidth && leaf.id[lane] != SurfaceId::none; ++lane) {
+        if (may_meet(leaf, lane, tree_ray, latest) && visit(leaf.id[lane])) return;
       }
       continue;
     }
-    Entry near{node.first, slabs.entry(nodes_[node.first].box, t_max)};
-    Entry far{node.first + 1, slabs.entry(nodes_[node.first + 1].box, t_max)};
-    if (far.t < near.t) std::swap(near, far);
-    if (far.t < kNever) stack[size++] = far;
-    if (near.t < kNever) stack[size++] = near;
+    // Put aside the children that are met, the nearest on top.
+    const TreeNode& node = nodes_[top.child];
+    const std::size_t first = size;
+    for (int child = 0; child != kTreeWidth; ++child) {
+      Entry met{node.child[child], 0};
+      if (!meets_child(node, child, tree_ray, latest, met.t)) continue;
+      std::size_t place = size++;
+      for (; place > first && stack[place - 1].t < met.t; --place) stack[place] = stack[place - 1];
+      stack[place] = met;
+    }
   }
 }
 
 template <class Meets, class Visit>
 void Bvh::visit_where(Meets&& meets, Visit&& visit) const {
   if (nodes_.empty()) return;
-  std::array<std::uint32_t, kMaxDepth + 1> stack;
+  std::array<std::uint32_t, kStackSize> stack;
   std::size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
-    const Node& node = nodes_[stack[--size]];
-    if (!meets(node.box)) continue;
-    if (node.count == 0) {
-      stack[size++] = node.first;
-      stack[size++] = node.first + 1;
+    const std::uint32_t top = stack[--size];
+    if (TreeChild::is_leaf(top)) {
+      for (const SurfaceId id : leaves_[TreeChild::index(top)].id) {
+        if (id != SurfaceId::none) visit(id);
+      }
       continue;
     }
-    for (std::uint32_t i = node.first; i != node.first + node.count; ++i) visit(spheres_[i]);
+    const TreeNode& node = nodes_[top];
+    for (int child = 0; child != kTreeWidth; ++child) {
+      const Box box = child_box(node, child);
+      if (!box.is_empty() && meets(box)) stack[size++] = node.child[child];
+    }
   }
 }
 

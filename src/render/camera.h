@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "render/bvh.h"
+#include "render/box.h"
 #include "render/ray.h"
 #include "render/scene_data.h"
 

@@ -14,9 +14,6 @@ namespace tessera::render {
 namespace {
 
 constexpr double u = kUnitRoundoff;
-bool holds(const std::vector<SurfaceId>& ids, SurfaceId id) {
-  return std::binary_search(ids.begin(), ids.end(), id);
-}
 
 double largest_channel(const Rgb& c) {
   return std::max({c.r, c.g, c.b});
@@ -93,8 +90,9 @@ void PathError::check_first(const Ray& ray, SurfaceId hit, double latest) {
   };
 
   scene_.visit_where([&](const Box& box) { return is_certified_ && tube.may_meet(box); },
-                     [&](const LeafSphere& sphere) {
-                       if (!is_other(sphere.id) || region_.is_inside(sphere.id)) return;
+                     [&](SurfaceId id) {
+                       if (!is_other(id) || region_.is_inside(id)) return;
+                       const Sphere& sphere = scene_.sphere(id);
                        if (!tube.surely_passes(sphere.center, sphere.radius)) give_up();
                      });
   for (const SurfaceId id : region_.walls()) {
@@ -161,10 +159,11 @@ void PathError::check_shadow(std::size_t index, bool is_lit, const Vec3& to_ligh
   bool is_surely_blocked = false;
   bool is_surely_free = true;
   scene_.visit_where([&](const Box& box) { return is_certified_ && tube.may_meet(box); },
-                     [&](const LeafSphere& sphere) {
-                       if (sphere.id == place_.surface || region_.is_inside(sphere.id)) return;
-                       if (scene_.are_coincident(sphere.id, place_.surface)) return;
-                       if (holds(placement.touching, sphere.id)) {
+                     [&](SurfaceId id) {
+                       if (id == place_.surface || region_.is_inside(id)) return;
+                       if (scene_.are_coincident(id, place_.surface)) return;
+                       const Sphere& sphere = scene_.sphere(id);
+                       if (placement.touches(id)) {
                          // It blocks where the light is on its far side.
                          const double depth = dot(light.vector - sphere.center, to_light) / sphere.radius;
                          if (depth < -2 * way_error) return;

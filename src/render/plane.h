@@ -73,10 +73,6 @@ struct PlaneLookBounds {
   double reach;   ///< >= |P|
 };
 
-inline double sum_of_sizes(const Vec3& a) noexcept {
-  return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
-}
-
 /// A first look at a plane, in plain double precision. What it calls sure is sure; where it is not, distance_to
 /// decides.
 ///

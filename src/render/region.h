@@ -21,9 +21,7 @@ class Region {
   /// The spheres that the whole path is inside of and whose far sides it can meet, ascending: of coincident ones the
   /// first alone, for that is the one to be seen.
   const std::vector<SurfaceId>& walls() const noexcept { return walls_; }
-  bool is_inside(SurfaceId sphere) const noexcept {
-    return !enclosing_.empty() && std::binary_search(enclosing_.begin(), enclosing_.end(), sphere);
-  }
+  bool is_inside(SurfaceId sphere) const noexcept { return Placement::holds(enclosing_, sphere); }
   /// +1 on the side that the plane's normal points to, -1 on the other.
   int side_of(std::size_t plane) const noexcept { return plane_sides_[plane]; }
 

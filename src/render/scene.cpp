@@ -10,13 +10,13 @@
 
 namespace tessera::render {
 
-Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(kernel) {
-  if (kernel_ == Kernel::tree) bvh_ = build_bvh(data_.spheres);
+Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(runnable(kernel)) {
+  if (kernel_ != Kernel::brute) bvh_ = build_bvh(data_.spheres);
   Box bounds;
   for (const Sphere& sphere : data_.spheres) {
     if (sphere.radius > 0) bounds.include(bounds_of(sphere.center, sphere.radius));
   }
-  if (bounds.lo.x <= bounds.hi.x) {
+  if (!bounds.is_empty()) {
     middle_ = 0.5 * (bounds.lo + bounds.hi);
     reach_ = bounds.reach_from(middle_);
   }
@@ -41,10 +41,10 @@ Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(ke
 Placement Scene::placement_of(const Vec3& point) const {
   Placement placement;
   const auto holds_point = [&](const Box& box) { return box.contains(point); };
-  visit_where(holds_point, [&](const LeafSphere& sphere) {
-    const int side = side_of(point, sphere.center, sphere.radius);
-    if (side < 0) placement.enclosing.push_back(sphere.id);
-    if (side == 0) placement.touching.push_back(sphere.id);
+  visit_where(holds_point, [&](SurfaceId id) {
+    const int side = side_of(point, sphere(id).center, sphere(id).radius);
+    if (side < 0) placement.enclosing.push_back(id);
+    if (side == 0) placement.touching.push_back(id);
   });
   for (std::size_t i = 0; i != data_.planes.size(); ++i) {
     if (side_of(point, data_.planes[i]) == 0) placement.touching.push_back(plane_id(i));

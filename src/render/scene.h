@@ -1,33 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "render/bvh.h"
+#include "render/kernel.h"
 #include "render/plane.h"
 #include "render/scene_data.h"
 
 // A scene made ready for tracing.
 namespace tessera::render {
 
-/// How spheres are searched. Every kernel gives the same picture, bit for bit.
-enum class Kernel : std::uint8_t {
-  tree,   ///< through the bounding volume hierarchy
-  brute,  ///< every sphere for every ray: the oracle
-};
-
 /// The surfaces that matter at one point: the spheres around it, and all surfaces that go through it.
 struct Placement {
   std::vector<SurfaceId> enclosing;  ///< spheres that strictly contain the point, ascending
   std::vector<SurfaceId> touching;   ///< surfaces exactly at the point, ascending
+
+  bool encloses(SurfaceId sphere) const noexcept { return holds(enclosing, sphere); }
+  bool touches(SurfaceId surface) const noexcept { return holds(touching, surface); }
+
+  /// Of an ascending list, which is mostly empty.
+  static bool holds(const std::vector<SurfaceId>& ids, SurfaceId id) noexcept {
+    return !ids.empty() && std::binary_search(ids.begin(), ids.end(), id);
+  }
 };
 
 class Scene {
  public:
+  /// throws:  std::invalid_argument for a kernel that this machine cannot run
   Scene(SceneData data, Kernel kernel);
 
   const SceneData& data() const noexcept { return data_; }
+  Kernel kernel() const noexcept { return kernel_; }
   const Bvh& bvh() const noexcept { return bvh_; }
 
   std::size_t sphere_count() const noexcept { return data_.spheres.size(); }
@@ -64,21 +70,19 @@ class Scene {
 
   /// Calls visit(sphere) for every sphere that the ray may meet before `t_max`; see Bvh::visit_along.
   template <class Visit>
-  void visit_along(const Ray& ray, const double& t_max, Visit&& visit) const {
-    if (kernel_ == Kernel::tree) return bvh_.visit_along(ray, t_max, visit);
+  void visit_along(const Ray& ray, double inverse_length, const double& t_max, Visit&& visit) const {
+    if (kernel_ != Kernel::brute) return bvh_.visit_along(ray, inverse_length, t_max, visit);
     for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
-      const Sphere& sphere = data_.spheres[i];
-      if (sphere.radius > 0 && visit(LeafSphere{sphere.center, sphere.radius, surface_id(i)})) return;
+      if (data_.spheres[i].radius > 0 && visit(surface_id(i))) return;
     }
   }
 
   /// Calls visit(sphere) for every sphere that may lie in a region of space that `meets(box)` knows.
   template <class Meets, class Visit>
   void visit_where(Meets&& meets, Visit&& visit) const {
-    if (kernel_ == Kernel::tree) return bvh_.visit_where(meets, visit);
+    if (kernel_ != Kernel::brute) return bvh_.visit_where(meets, visit);
     for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
-      const Sphere& sphere = data_.spheres[i];
-      if (sphere.radius > 0) visit(LeafSphere{sphere.center, sphere.radius, surface_id(i)});
+      if (data_.spheres[i].radius > 0) visit(surface_id(i));
     }
   }
 
@@ -86,8 +90,8 @@ class Scene {
   SceneData data_;
   Kernel kernel_;
   Bvh bvh_;
-  Vec3 middle_;                      ///< of the box around all spheres that can be hit
-  double reach_ = 0;                 ///< from there to a corner, summed over the axes
+  Vec3 middle_;       ///< of the box around all spheres that can be hit
+  double reach_ = 0;  ///< from there to a corner, summed over the axes
   std::vector<std::size_t> visible_planes_;
   std::vector<Vec3> plane_normals_;  ///< of length 1
   std::vector<PlaneLookBounds> plane_looks_;

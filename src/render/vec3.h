@@ -44,6 +44,10 @@ constexpr double dot(const Vec3& a, const Vec3& b) noexcept {
 constexpr Vec3 cross(const Vec3& a, const Vec3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// |x| + |y| + |z|, which is at least the length.
+inline double sum_of_sizes(const Vec3& a) noexcept {
+  return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
+}
 inline double largest_component(const Vec3& a) noexcept {
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }

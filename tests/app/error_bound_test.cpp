@@ -25,7 +25,7 @@ BOOST_AUTO_TEST_CASE(holds_on_every_scene_of_the_collection) {
   for (const auto& entry : std::filesystem::directory_iterator(TESSERA_SCENES)) {
     if (entry.path().extension() != ".toml") continue;
     ++scenes;
-    const Scene scene(unit_scaled(io::read_scene(entry.path()).scene), Kernel::tree);
+    const Scene scene(unit_scaled(io::read_scene(entry.path()).scene), Kernel::automatic);
     const std::size_t cost = std::max<std::size_t>(scene.sphere_count(), 50);
     const auto side =
         static_cast<std::uint32_t>(std::clamp(std::sqrt(300'000.0 / static_cast<double>(cost)), 3.0, 30.0));

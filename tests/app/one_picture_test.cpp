@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(every_master_role_and_prefetch_gives_the_same_bytes) {
 
 BOOST_AUTO_TEST_CASE(every_kernel_gives_the_same_bytes) {
   const RenderJob job = test::small_job();
-  const render::Scene tree(job.scene, render::Kernel::tree);
+  const render::Scene tree(job.scene, render::Kernel::automatic);
   const render::Scene brute(job.scene, render::Kernel::brute);
   BOOST_TEST((test::reference_files(job, tree) == test::reference_files(job, brute)));
 }

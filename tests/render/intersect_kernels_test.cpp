@@ -33,7 +33,7 @@ struct Comparison {
   int shadows = 0;
   int differences = 0;
 
-  explicit Comparison(const SceneData& scene) : tree(scene, Kernel::tree), brute(scene, Kernel::brute) {}
+  explicit Comparison(const SceneData& scene) : tree(scene, Kernel::automatic), brute(scene, Kernel::brute) {}
 
   std::optional<Hit> trace(const Ray& ray, const Region& in_tree, const Region& in_brute) {
     const std::optional<Hit> a = nearest_hit(tree, ray, in_tree);

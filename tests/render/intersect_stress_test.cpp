@@ -21,7 +21,7 @@ struct HitCheck {
   double t_error = 0;  ///< of the distance from the eye
   double normal_error = 0;
 
-  explicit HitCheck(const SceneData& data) : scene(data, Kernel::tree) {}
+  explicit HitCheck(const SceneData& data) : scene(data, Kernel::automatic) {}
 
   void trace(const Vec3& eye, const Vec3& direction) {
     const auto hit = hit_from(scene, eye, direction);
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(concentric_shells_hide_each_other) {
       add_sphere(data, center, outer_first ? 1 : 1 + gap);
       const SurfaceId outer = surface_id(outer_first ? 0 : 1);
       const SurfaceId inner = surface_id(outer_first ? 1 : 0);
-      const Scene scene(data, Kernel::tree);
+      const Scene scene(data, Kernel::automatic);
       Random random(62);
       int wrong = 0;
       for (int i = 0; i != 2000; ++i) {
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(no_ray_leaks_through_the_contact_of_two_spheres) {
   SceneData data;
   add_sphere(data, {-1, 0, 0}, 1);
   add_sphere(data, {1, 0, 0}, 1);
-  const Scene scene(data, Kernel::tree);
+  const Scene scene(data, Kernel::automatic);
   Random random(64);
   int leaks = 0;
   for (int i = 0; i != 20000; ++i) {
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(ray_leaving_a_sphere_never_meets_it_again) {
     const Vec3 center = radius * random.over_decades(1, 1e9) * random.direction();
     add_sphere(data, center, radius);
     add_directional_light(data, {1, 0, 0});
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const Region outside = region_at(scene, {0, 0, 0}, -center);
     for (int j = 0; j != 50; ++j) {
       const Vec3 normal = random.direction();

@@ -13,7 +13,7 @@ using namespace tessera::render::test;
 namespace {
 
 SurfaceId surface_from(const SceneData& data, const Vec3& eye, const Vec3& direction) {
-  const auto in_tree = hit_from(Scene(data, Kernel::tree), eye, direction);
+  const auto in_tree = hit_from(Scene(data, Kernel::automatic), eye, direction);
   const auto in_brute = hit_from(Scene(data, Kernel::brute), eye, direction);
   BOOST_TEST((in_tree.has_value() == in_brute.has_value() && (!in_tree || in_tree->surface == in_brute->surface)));
   return in_tree ? in_tree->surface : SurfaceId::none;
@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_SUITE(intersect)
 BOOST_AUTO_TEST_CASE(nearest_of_several_wins) {
   SceneData scene;
   for (const double x : {3.0, -5.0, -1.0}) add_sphere(scene, {x, 0, 0}, 1);
-  const auto hit = hit_from(Scene(scene, Kernel::tree), {-9, 0, 0}, {1, 0, 0});
+  const auto hit = hit_from(Scene(scene, Kernel::automatic), {-9, 0, 0}, {1, 0, 0});
   BOOST_REQUIRE(hit.has_value());
   BOOST_TEST((hit->surface == surface_id(1)));
   BOOST_TEST(hit->t == 3);
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(nearest_of_several_wins) {
 }
 
 BOOST_AUTO_TEST_CASE(t_counts_lengths_of_the_direction) {
-  const Scene scene(one_sphere({0, 0, 0}, 1), Kernel::tree);
+  const Scene scene(one_sphere({0, 0, 0}, 1), Kernel::automatic);
   BOOST_TEST(hit_from(scene, {-9, 0, 0}, {4, 0, 0})->t == 2);
   BOOST_TEST(hit_from(scene, {-9, 0, 0}, {0x1p-40, 0, 0})->t == 0x1p43);
 }
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(sphere_of_radius_zero_is_never_hit) {
 
 // Outside the near side, inside the far side: t = 8 and t = 1.
 BOOST_AUTO_TEST_CASE(spheres_are_two_sided) {
-  const Scene scene(one_sphere({0, 0, 0}, 1), Kernel::tree);
+  const Scene scene(one_sphere({0, 0, 0}, 1), Kernel::automatic);
   BOOST_TEST(hit_from(scene, {-9, 0, 0}, {1, 0, 0})->t == 8);
   const auto inside = hit_from(scene, {0, 0, 0}, {1, 0, 0});
   BOOST_TEST(inside->t == 1);
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(spheres_are_two_sided) {
 BOOST_AUTO_TEST_CASE(planes_are_two_sided_and_keep_their_normal) {
   SceneData data;
   add_plane(data, {5, 5, 1}, {0, 0, 4});
-  const Scene scene(data, Kernel::tree);
+  const Scene scene(data, Kernel::automatic);
   const auto above = hit_from(scene, {0, 0, 3}, {1, 0, -2});
   BOOST_TEST(above->t == 1);
   BOOST_TEST((above->point == Vec3{1, 0, 1}));
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(eye_exactly_on_a_surface_has_left_it) {
     BOOST_TEST((surface_from(scene, eye, out) == SurfaceId::none));
   }
   for (const Vec3& in : {Vec3{-0.6, -0.8, 0}, Vec3{-1, 0, 0}, Vec3{0.28, -0.96, 0}, Vec3{-0.6, 0, 0.8}}) {
-    const auto hit = hit_from(Scene(scene, Kernel::tree), eye, in);
+    const auto hit = hit_from(Scene(scene, Kernel::automatic), eye, in);
     BOOST_REQUIRE(hit.has_value());
     BOOST_TEST(std::abs(hit->t + 2 * dot(eye, in)) <= 1e-14 * hit->t);
   }
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(ray_through_the_contact_of_two_spheres_hits_the_first) {
   SceneData scene;
   add_sphere(scene, {1, 0, 0}, 1);
   add_sphere(scene, {-1, 0, 0}, 1);
-  const auto hit = hit_from(Scene(scene, Kernel::tree), {0, 5, 0}, {0, -1, 0});
+  const auto hit = hit_from(Scene(scene, Kernel::automatic), {0, 5, 0}, {0, -1, 0});
   BOOST_REQUIRE(hit.has_value());
   BOOST_TEST((hit->surface == surface_id(0)));
   BOOST_TEST(hit->t == 5);
@@ -157,13 +157,13 @@ BOOST_AUTO_TEST_CASE(sphere_that_coincides_with_the_one_left_is_not_met) {
     const Vec3 center = random.in_box(1);
     add_sphere(data, center, 0.3);
     add_sphere(data, center, 0.3);
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const Vec3 normal = random.direction();
     const Ray leaving{center + 0.3 * normal, random.perpendicular_to(normal), surface_id(0), normal};
     const Region outside = region_at(scene, center + normal, normal);
     met += nearest_hit(scene, leaving, outside).has_value();
     data.lights = {{LightKind::point, leaving.origin + leaving.direction, kWhite}};
-    hidden += is_occluded(Scene(data, Kernel::tree), leaving, 0, outside);
+    hidden += is_occluded(Scene(data, Kernel::automatic), leaving, 0, outside);
   }
   BOOST_TEST(met == 0);
   BOOST_TEST(hidden == 0);

@@ -39,7 +39,7 @@ struct BoundCheck {
   double smallest = 1;  ///< smallest bound
   double largest = 0;   ///< largest bound
 
-  explicit BoundCheck(const SceneData& data) : scene(data, Kernel::tree) {}
+  explicit BoundCheck(const SceneData& data) : scene(data, Kernel::automatic) {}
 
   void trace(const Vec3& eye, const Vec3& direction) {
     ++rays;
@@ -63,7 +63,7 @@ struct BoundCheck {
 };
 
 bool is_certified(const SceneData& data, const Vec3& eye, const Vec3& direction) {
-  return std::isfinite(bounded_radiance(Scene(data, Kernel::tree), eye, direction).bound);
+  return std::isfinite(bounded_radiance(Scene(data, Kernel::automatic), eye, direction).bound);
 }
 
 }  // namespace
@@ -145,8 +145,8 @@ BOOST_AUTO_TEST_CASE(a_highlight_that_may_jump_has_its_size_as_bound) {
   SceneData data;
   add_plane(data, {0, 0, 0}, {0, 0, 1}, {.specular = 0.5, .shininess = 0});
   add_directional_light(data, {-1, 0, -1});
-  BOOST_TEST(bounded_radiance(Scene(data, Kernel::tree), {1, 0, 1}, {-1, 0, -1}).bound >= 0.5);
-  BOOST_TEST(bounded_radiance(Scene(data, Kernel::tree), {0.9, 0, 1}, {-0.9, 0, -1}).bound < 1e-13);
+  BOOST_TEST(bounded_radiance(Scene(data, Kernel::automatic), {1, 0, 1}, {-1, 0, -1}).bound >= 0.5);
+  BOOST_TEST(bounded_radiance(Scene(data, Kernel::automatic), {0.9, 0, 1}, {-0.9, 0, -1}).bound < 1e-13);
 }
 
 // Within one mirror the error grows by its square at most, not as a product.

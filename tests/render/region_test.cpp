@@ -28,7 +28,7 @@ SceneData shells() {
 BOOST_AUTO_TEST_SUITE(region)
 
 BOOST_AUTO_TEST_CASE(point_is_enclosed_by_spheres_larger_than_its_distance) {
-  for (const Kernel kernel : {Kernel::tree, Kernel::brute}) {
+  for (const Kernel kernel : {Kernel::automatic, Kernel::brute}) {
     const Scene scene(shells(), kernel);
     BOOST_TEST((scene.placement_of({3, 0, 0}).enclosing == Ids{surface_id(1), surface_id(2)}));
     BOOST_TEST((scene.placement_of({0, 0, 0}).enclosing == Ids{surface_id(0), surface_id(1), surface_id(2)}));
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(point_is_enclosed_by_spheres_larger_than_its_distance) {
 
 // (3, 4, 0) and (0, 0, -5) are exactly on the sphere of radius 5, the latter on the floor too.
 BOOST_AUTO_TEST_CASE(point_on_a_surface_touches_it) {
-  const Scene scene(shells(), Kernel::tree);
+  const Scene scene(shells(), Kernel::automatic);
   const Placement rim = scene.placement_of({3, 4, 0});
   BOOST_TEST((rim.touching == Ids{surface_id(1)}));
   BOOST_TEST((rim.enclosing == Ids{surface_id(2)}));
@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(point_on_a_surface_touches_it) {
 BOOST_AUTO_TEST_CASE(sphere_of_radius_zero_is_nowhere) {
   SceneData data;
   add_sphere(data, {1, 2, 3}, 0);
-  for (const Kernel kernel : {Kernel::tree, Kernel::brute}) {
+  for (const Kernel kernel : {Kernel::automatic, Kernel::brute}) {
     const Placement placement = Scene(data, kernel).placement_of({1, 2, 3});
     BOOST_TEST(placement.enclosing.empty());
     BOOST_TEST(placement.touching.empty());
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(sphere_of_radius_zero_is_nowhere) {
 }
 
 BOOST_AUTO_TEST_CASE(eye_on_a_sphere_has_left_it_to_the_side_that_the_ray_points_to) {
-  const Scene scene(shells(), Kernel::tree);
+  const Scene scene(shells(), Kernel::automatic);
   const Vec3 eye{3, 4, 0};
   BOOST_TEST(!region_at(scene, eye, {3, 4, 0}).is_inside(surface_id(1)));
   BOOST_TEST(region_at(scene, eye, {-3, -4, 0}).is_inside(surface_id(1)));
@@ -68,13 +68,13 @@ BOOST_AUTO_TEST_CASE(eye_on_a_sphere_has_left_it_to_the_side_that_the_ray_points
 
 // A tangent line runs outside of a convex body.
 BOOST_AUTO_TEST_CASE(eye_on_a_sphere_looking_along_it_is_outside) {
-  const Scene scene(shells(), Kernel::tree);
+  const Scene scene(shells(), Kernel::automatic);
   BOOST_TEST(!region_at(scene, {3, 4, 0}, {-4, 3, 0}).is_inside(surface_id(1)));
   BOOST_TEST(!region_at(scene, {3, 4, 0}, {0, 0, 1}).is_inside(surface_id(1)));
 }
 
 BOOST_AUTO_TEST_CASE(eye_on_a_plane_has_left_it_to_the_side_that_the_ray_points_to) {
-  const Scene scene(shells(), Kernel::tree);
+  const Scene scene(shells(), Kernel::automatic);
   BOOST_TEST(region_at(scene, {40, 0, 9}, {0, 0, -1}).side_of(0) == 1);
   BOOST_TEST(region_at(scene, {40, 0, -9}, {0, 0, 1}).side_of(0) == -1);
   BOOST_TEST(region_at(scene, {40, 0, -5}, {1, 0, 1}).side_of(0) == 1);
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(placement_agrees_with_exact_arithmetic) {
   Random random(41);
   const auto small = [&] { return static_cast<double>(random.below(13)) - 6; };
   for (int i = 0; i != 60; ++i) add_sphere(data, {small(), small(), small()}, random.below(7));
-  const Scene tree(data, Kernel::tree);
+  const Scene tree(data, Kernel::automatic);
   const Scene brute(data, Kernel::brute);
   int wrong = 0;
   std::size_t touching = 0;

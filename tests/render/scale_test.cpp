@@ -78,8 +78,8 @@ BOOST_AUTO_TEST_CASE(picture_of_a_scaled_scene_is_the_same) {
   data.image.width = 48;
   data.image.height = 32;
   data.camera = framed_camera(bounds_of(data), 48, 32);
-  const Image plain = render_picture(Scene(data, Kernel::tree), PixelFormat::rgb32f);
-  const Image scaled = render_picture(Scene(unit_scaled(data), Kernel::tree), PixelFormat::rgb32f);
+  const Image plain = render_picture(Scene(data, Kernel::automatic), PixelFormat::rgb32f);
+  const Image scaled = render_picture(Scene(unit_scaled(data), Kernel::automatic), PixelFormat::rgb32f);
   BOOST_TEST((plain.bytes == scaled.bytes));
 }
 

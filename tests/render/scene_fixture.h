@@ -63,7 +63,7 @@ inline Rgb seen_from(const Scene& scene, const Vec3& eye, const Vec3& direction)
   return seen_from(scene, eye, direction, counts);
 }
 inline Rgb seen_from(SceneData scene, const Vec3& eye, const Vec3& direction) {
-  return seen_from(Scene(std::move(scene), Kernel::tree), eye, direction);
+  return seen_from(Scene(std::move(scene), Kernel::automatic), eye, direction);
 }
 
 /// The pixels of one rectangle of a scene's picture.

@@ -19,7 +19,7 @@ Signature signed_by(const SceneData& data, const Vec3& eye, const Vec3& directio
   SignatureObserver observer(signature);
   PathObserver* const observers[] = {&observer};
   RayCounts counts;
-  seen_from(Scene(data, Kernel::tree), eye, direction, counts, observers);
+  seen_from(Scene(data, Kernel::automatic), eye, direction, counts, observers);
   return signature;
 }
 

@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(pixels_do_not_depend_on_the_rectangle_they_are_rendered_in)
       data.camera->projection = projection;
       data.camera->height = 8;
       data.image.samples = format == PixelFormat::rgb16 ? 4 : 1;
-      const Scene scene(data, Kernel::tree);
+      const Scene scene(data, Kernel::automatic);
       const Image whole = render_picture(scene, format);
       for (int i = 0; i != 25; ++i) {
         const std::uint32_t x = random.below(37);
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(pixels_do_not_depend_on_the_rectangle_they_are_rendered_in)
 
 // One renderer for all tiles, in the reverse order: nothing is carried from one to the next.
 BOOST_AUTO_TEST_CASE(every_tiling_gives_the_same_picture) {
-  const Scene scene(busy_scene(), Kernel::tree);
+  const Scene scene(busy_scene(), Kernel::automatic);
   const TileRenderer renderer(scene, PixelFormat::rgb32f);
   const Image whole = render_picture(scene, PixelFormat::rgb32f);
   for (const std::uint32_t side : {1U, 2U, 5U, 8U, 16U, 1024U}) {
@@ -90,14 +90,14 @@ BOOST_AUTO_TEST_CASE(both_kernels_give_the_same_bytes) {
         framed_camera({kind.center - kind.size * Vec3{1, 1, 1}, kind.center + kind.size * Vec3{1, 1, 1}}, 40, 30);
     data.image.width = 40;
     data.image.height = 30;
-    const Image in_tree = render_picture(Scene(data, Kernel::tree), PixelFormat::rgb32f);
+    const Image in_tree = render_picture(Scene(data, Kernel::automatic), PixelFormat::rgb32f);
     BOOST_TEST((in_tree.bytes == render_picture(Scene(data, Kernel::brute), PixelFormat::rgb32f).bytes), kind.name);
   }
 }
 
 // Every pixel is what the ray through its centre sees.
 BOOST_AUTO_TEST_CASE(pixels_are_sampled_at_their_centre) {
-  const Scene scene(busy_scene(), Kernel::tree);
+  const Scene scene(busy_scene(), Kernel::automatic);
   const Image image = render_picture(scene, PixelFormat::rgb32f);
   const CameraRays rays(*scene.data().camera, 37, 23);
   for (std::uint32_t y = 0; y != 23; ++y) {
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(samples_are_averaged_over_a_regular_grid) {
   for (const std::uint32_t k : {2U, 3U, 5U}) {
     SceneData data = busy_scene(11, 7);
     data.image.samples = k * k;
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const Image image = render_picture(scene, PixelFormat::rgb32f);
     const CameraRays rays(*data.camera, 11, 7);
     for (std::uint32_t pixel = 0; pixel != 77; ++pixel) {
@@ -133,9 +133,9 @@ BOOST_AUTO_TEST_CASE(left_handed_camera_mirrors_the_picture_exactly) {
     SceneData data = busy_scene();
     data.camera->projection = projection;
     data.camera->height = 8;
-    const Image right = render_picture(Scene(data, Kernel::tree), PixelFormat::rgb32f);
+    const Image right = render_picture(Scene(data, Kernel::automatic), PixelFormat::rgb32f);
     data.camera->handedness = Handedness::left;
-    const Image left = render_picture(Scene(data, Kernel::tree), PixelFormat::rgb32f);
+    const Image left = render_picture(Scene(data, Kernel::automatic), PixelFormat::rgb32f);
     for (std::uint32_t x = 0; x != 37; ++x) {
       BOOST_REQUIRE((cut(right, {x, 0, 1, 23}) == cut(left, {36 - x, 0, 1, 23})));
     }
@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(orthographic_rays_start_each_in_their_own_place) {
   data.camera->height = 4;
   data.image.width = 40;
   data.image.height = 40;
-  const Image image = render_picture(Scene(data, Kernel::tree), PixelFormat::rgb32f);
+  const Image image = render_picture(Scene(data, Kernel::automatic), PixelFormat::rgb32f);
   for (std::size_t y = 0; y != 40; ++y) {
     for (std::size_t x = 0; x != 40; ++x) {
       const double distance = std::hypot(static_cast<double>(x) - 19.5, static_cast<double>(y) - 19.5) / 10;
@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(eye_on_a_surface_is_decided_for_every_ray) {
   data.camera = Camera{.eye = {0, 0, 0}, .target = {-4, 3, 0}, .fov = 90};
   data.image.width = 20;
   data.image.height = 20;
-  const Image image = render_picture(Scene(data, Kernel::tree), PixelFormat::rgb32f);
+  const Image image = render_picture(Scene(data, Kernel::automatic), PixelFormat::rgb32f);
   // Facing (-4, 3, 0) with z up, the centre (3, 4, 0) is on the right; the small ball half way to the edge.
   for (std::size_t x = 0; x != 20; ++x) BOOST_TEST(green(image, x, 2) == (x < 10 ? 0 : 1));
   BOOST_TEST(green(image, 14, 10) == 0.5);
@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(eye_on_a_surface_is_decided_for_every_ray) {
 
 BOOST_AUTO_TEST_CASE(pictures_of_extreme_shape_render) {
   for (const auto& [width, height] : {std::pair{1U, 1U}, {1U, 10000U}, {10000U, 1U}}) {
-    const Scene scene(busy_scene(width, height), Kernel::tree);
+    const Scene scene(busy_scene(width, height), Kernel::automatic);
     BOOST_TEST(render_picture(scene, PixelFormat::rgb8).bytes.size() == 3U * width * height);
   }
 }
@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(pictures_of_extreme_shape_render) {
 BOOST_AUTO_TEST_CASE(rays_are_counted_by_purpose) {
   SceneData data = busy_scene();
   data.image.samples = 4;
-  const Scene scene(data, Kernel::tree);
+  const Scene scene(data, Kernel::automatic);
   const TileRenderer renderer(scene, PixelFormat::rgb8);
   Image image(37, 23, PixelFormat::rgb8);
   const RayCounts whole = renderer.render({0, 0, 37, 23}, {image.bytes}, [] {});
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(rays_are_counted_by_purpose) {
 BOOST_AUTO_TEST_CASE(reference_shows_the_same_picture_and_signatures) {
   SceneData data = busy_scene();
   data.image.samples = 4;
-  const Scene scene(data, Kernel::tree);
+  const Scene scene(data, Kernel::automatic);
   const auto rendered = [&](Tracer tracer, std::vector<Signature>& signatures, RayCounts& counts) {
     Image image(37, 23, PixelFormat::rgb32f);
     signatures.resize(37 * 23);
@@ -224,7 +224,7 @@ BOOST_AUTO_TEST_CASE(reference_shows_the_same_picture_and_signatures) {
 }
 
 BOOST_AUTO_TEST_CASE(slices_are_announced_and_change_nothing) {
-  const Scene scene(busy_scene(64, 64), Kernel::tree);
+  const Scene scene(busy_scene(64, 64), Kernel::automatic);
   Image image(64, 64, PixelFormat::rgb8);
   int slices = 0;
   TileRenderer(scene, PixelFormat::rgb8).render({0, 0, 64, 64}, {image.bytes}, [&] { ++slices; });

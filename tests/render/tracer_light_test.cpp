@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(light_at_the_eye_shades_every_pixel_by_its_impact_parameter
     const Vec3 eye = center + distance * normalized({1, 2, -2});
     add_point_light(data, eye);
     data.camera = Camera{.eye = eye, .target = center, .fov = 2.1 * std::asin(1 / distance) * 180 / kPi};
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const CameraRays rays(*data.camera, 48, 48);
     double worst = 0;
     int hits = 0;
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(silhouette_covers_the_area_of_its_ellipse) {
     SceneData data;
     const double alpha = 0.25;
     add_sphere(data, 4.0 * Vec3{std::sin(theta), 0, std::cos(theta)}, 4 * std::sin(alpha));
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const CameraRays rays({.eye = {0, 0, 0}, .target = {0, 0, 1}, .up = {0, 1, 0}, .fov = 100}, kSide, kSide);
     int covered = 0;
     for (int pixel = 0; pixel != kSide * kSide; ++pixel) {
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(coaxial_shadow_ends_at_the_tangent_cone) {
     add_sphere(data, {0, 0, 4}, 4 * ratio);
     add_plane(data, {0, 0, 32}, {0, 0, -1});
     add_point_light(data, {0, 0, 0});
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const double expected = std::asin(ratio);
     const double edge = shadow_edge(0.9 * expected, 1.1 * expected, [&](double angle) {
       const Vec3 at{32 * std::tan(angle), 0, 32};
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(shadow_on_the_wall_of_a_hollow_sphere_ends_at_the_tangent_c
     add_sphere(data, {0, 0, 0}, 10);
     add_sphere(data, {0, 0, 2}, q);
     add_point_light(data, {0, 0, 0});
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const double expected = std::asin(q / 2);
     const double edge = shadow_edge(0.5 * expected, 1.5 * expected, [&](double angle) {
       const Vec3 on_wall{10 * std::sin(angle), 0, 10 * std::cos(angle)};
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(shadow_on_the_wall_of_a_hollow_sphere_ends_at_the_tangent_c
 BOOST_AUTO_TEST_CASE(own_chord_follows_the_cosine) {
   SceneData data;
   add_sphere(data, {1, 2, 3}, 5);
-  const Scene scene(data, Kernel::tree);
+  const Scene scene(data, Kernel::automatic);
   const Region inside = region_at(scene, {1, 2, 3}, {1, 0, 0});
   Random random(131);
   double worst = 0;

@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(furnace_is_the_same_in_every_direction) {
       data.environment.background = {3, 3, 3};
       data.image.max_bounces = bounces;
       add_sphere(data, {1, 2, 3}, 4, glowing({0.7, 0.7, 0.7}, k));
-      const Scene scene(data, Kernel::tree);
+      const Scene scene(data, Kernel::automatic);
       const double kn = std::pow(k, bounces + 1.0);
       for (int i = 0; i != 20; ++i) {
         const Rgb seen = seen_from(scene, Vec3{1, 2, 3} + random.in_box(2), random.direction());
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(path_ends_when_its_weight_reaches_zero) {
     data.image.max_bounces = 200'000;
     add_sphere(data, {0, 0, 0}, 4, glowing(kWhite, k));
     RayCounts counts;
-    const Rgb seen = seen_from(Scene(data, Kernel::tree), {1, 2, 0}, {1, 0, 0.5}, counts);
+    const Rgb seen = seen_from(Scene(data, Kernel::automatic), {1, 2, 0}, {1, 0, 0.5}, counts);
     BOOST_TEST(std::abs(seen.r - 1) <= 1e-13);
     BOOST_TEST(counts.mirror <= 10'000U, "k " << k << ": " << counts.mirror << " mirror rays");
   }
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(path_ends_when_its_weight_reaches_zero) {
 BOOST_AUTO_TEST_CASE(surface_without_reflection_sends_no_mirror_ray) {
   SceneData data = with_bounces(facing_mirrors(Mirrors::planes, 0), 2147483647);
   RayCounts counts;
-  seen_from(Scene(data, Kernel::tree), {0, 0, 0}, {1, 0, 0}, counts);
+  seen_from(Scene(data, Kernel::automatic), {0, 0, 0}, {1, 0, 0}, counts);
   BOOST_TEST(counts.primary == 1U);
   BOOST_TEST(counts.mirror == 0U);
 }
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(symmetric_image_in_a_mirror_ball_is_where_alhazen_says) {
       add_sphere(data, {0, 0, 0}, 1, mirror());
       const Vec3 eye{-e * std::sin(theta), 0, e * std::cos(theta)};
       add_sphere(data, {-eye.x, 0, eye.z}, 1e-12 * e, glowing({0, 1, 0}));
-      const Scene scene(data, Kernel::tree);
+      const Scene scene(data, Kernel::automatic);
       const auto shown_at = [&](double angle) {
         return seen_from(scene, eye, {std::sin(angle), 0, -std::cos(angle)}) == Rgb{0, 1, 0};
       };
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(mirror_touching_a_floor_shows_its_near_side) {
   data.environment.background = {1, 0, 0};
   add_sphere(data, {0, 0, 1}, 1, mirror());
   add_plane(data, {0, 0, 0}, {0, 0, 1}, glowing({0, 1, 0}));
-  const Scene scene(data, Kernel::tree);
+  const Scene scene(data, Kernel::automatic);
   int wrong = 0;
   for (double height = 1e-12; height < 0.5; height *= 1.5) {
     wrong +=

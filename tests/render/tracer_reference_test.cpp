@@ -24,7 +24,7 @@ struct RadianceCheck {
   double error = 0;  ///< largest of the rays that are not off
   double brightest = 0;
 
-  explicit RadianceCheck(const SceneData& data) : scene(data, Kernel::tree) {}
+  explicit RadianceCheck(const SceneData& data) : scene(data, Kernel::automatic) {}
 
   void trace(const Vec3& eye, const Vec3& direction) {
     Signature signature;

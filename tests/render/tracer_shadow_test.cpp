@@ -27,7 +27,7 @@ Vec3 last_inside_unit_sphere(Vec3 wall) {
 }
 
 bool is_lit(const SceneData& data, const Vec3& eye, const Vec3& direction) {
-  const Rgb in_tree = seen_from(Scene(data, Kernel::tree), eye, direction);
+  const Rgb in_tree = seen_from(Scene(data, Kernel::automatic), eye, direction);
   BOOST_TEST((in_tree == seen_from(Scene(data, Kernel::brute), eye, direction)));
   return in_tree != kAmbient;
 }
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(light_inside_the_sphere_around_the_eye_is_not_blocked_by_it
     add_sphere(data, {0, 0, 0}, 1);
     add_sphere(data, {0, 0, 0}, 0.25, shaded());
     add_point_light(data, last_inside_unit_sphere(wall));
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const Vec3 direction = -1.0 * (wall + 0.05 * random.in_box(1));
     dark += seen_from(scene, 0.9 * wall, direction) == kAmbient;
   }
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(light_just_inside_an_opaque_sphere_lights_nothing_outside) 
     add_sphere(data, {0, 0, 0}, 1);
     add_plane(data, 2 * top, top, shaded());
     add_point_light(data, last_inside_unit_sphere(top));
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const Vec3 eye = 1.5 * top;
     lit += seen_from(scene, eye, top + 0.5 * random.in_box(1)) != kAmbient;
   }
@@ -157,10 +157,10 @@ BOOST_AUTO_TEST_CASE(light_on_a_sphere_reaches_every_point_that_sees_it) {
     add_sphere(data, {0, 0, 0}, 5, shaded());
     add_plane(data, {0, 0, 20}, {0, 0, 1}, shaded());
     add_point_light(data, light);
-    const Scene from_outside(data, Kernel::tree);
+    const Scene from_outside(data, Kernel::automatic);
     data.planes.clear();
     add_sphere(data, {-1, 1, -2}, 1, shaded());
-    const Scene from_inside(data, Kernel::tree);
+    const Scene from_inside(data, Kernel::automatic);
     for (int i = 0; i != 2000; ++i) {
       const Vec3 on_ceiling{random.uniform(-9, 9), random.uniform(-9, 9), 20};
       dark += seen_from(from_outside, on_ceiling - Vec3{0, 0, 1}, {0, 0, 1}) == kAmbient;

@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(large_values_keep_their_digits) {
 // No radiance is above the larger of the background and the largest local term: all are convex combinations.
 BOOST_AUTO_TEST_CASE(radiance_is_bounded_by_its_parts) {
   for (const SceneKind& kind : scene_kinds()) {
-    const Scene scene(random_scene(kind, 121), Kernel::tree);
+    const Scene scene(random_scene(kind, 121), Kernel::automatic);
     double bound = 0.3;
     for (const Material& m : scene.data().materials)
       bound = std::max(bound, m.ambient + 1.2 * (m.diffuse + m.specular));

@@ -74,7 +74,7 @@ SceneData radii_over_decades(int count) {
   return data;
 }
 
-/// The levels of a tree.
+/// The levels of a tree's inner nodes.
 int depth_of(const Bvh& bvh) {
   int deepest = 0;
   std::vector<std::pair<std::uint32_t, int>> open{{0, 1}};
@@ -82,10 +82,11 @@ int depth_of(const Bvh& bvh) {
     const auto [index, depth] = open.back();
     open.pop_back();
     deepest = std::max(deepest, depth);
-    const Bvh::Node& node = bvh.nodes()[index];
-    if (node.count > 0) continue;
-    open.emplace_back(node.first, depth + 1);
-    open.emplace_back(node.first + 1, depth + 1);
+    const TreeNode& node = bvh.nodes()[index];
+    for (int i = 0; i != kTreeWidth; ++i) {
+      const bool is_there = !bvh.child_box(node, i).is_empty();
+      if (is_there && !TreeChild::is_leaf(node.child[i])) open.emplace_back(node.child[i], depth + 1);
+    }
   }
   return deepest;
 }
@@ -128,7 +129,7 @@ class PixelPath {
 };
 
 void check_bulk(Verdict& verdict, const std::string& name, SceneData data) {
-  const Scene scene(unit_scaled(std::move(data)), Kernel::tree);
+  const Scene scene(unit_scaled(std::move(data)), Kernel::automatic);
   const int depth = depth_of(scene.bvh());
   verdict.require(depth <= Bvh::kMaxDepth, name + " (" + std::to_string(scene.sphere_count()) + "): depth " +
                                                std::to_string(depth) + ", " +

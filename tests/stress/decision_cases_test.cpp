@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(case_23_concentric_shells) {
     SceneData data;
     add_sphere(data, center, inner_first ? r : larger);
     add_sphere(data, center, inner_first ? larger : r);
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     // All eyes are 3 or 0.4 from the centre.
     const Region outside = region_at(scene, center + Vec3{3, 0, 0}, {1, 0, 0});
     const Region inside = region_at(scene, center, {1, 0, 0});

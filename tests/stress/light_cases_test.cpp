@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(case_30_light_at_the_terminator) {
     const Vec3 away = random.direction();
     const Vec3 eye = is_inside ? center + 0.1 * away : center + 3 * away;
     const Vec3 direction = is_inside ? random.direction() : 0.15 * random.direction() - 3 * away;
-    const auto hit = hit_from(Scene(data, Kernel::tree), eye, direction);
+    const auto hit = hit_from(Scene(data, Kernel::automatic), eye, direction);
     BOOST_REQUIRE(hit.has_value());
     const Vec3 along = random.perpendicular_to(hit->normal) + random.uniform(-1e-16, 1e-16) * hit->normal;
     if (i % 2 == 0) {

@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(case_34_inside_a_mirror_sphere) {
     const double r = random.over_decades(0.01, 1);
     SceneData data;
     add_sphere(data, random.in_box(0.5), r, mirror());
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const Vec3& center = data.spheres[0].center;
     // From along the wall to straight across.
     const Vec3 normal = random.direction();
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(case_34_inside_a_mirror_sphere) {
   data.environment.background = {0.25, 0.5, 1};
   data.image.max_bounces = 100000;
   RayCounts counts;
-  const Rgb seen = seen_from(Scene(data, Kernel::tree), {0.5, 0.1, 0.2}, {0.3, 0.4, 1}, counts);
+  const Rgb seen = seen_from(Scene(data, Kernel::automatic), {0.5, 0.1, 0.2}, {0.3, 0.4, 1}, counts);
   verdict.require(counts.mirror == 100000 && seen == data.environment.background, "1e5 bounces end in the background");
 }
 

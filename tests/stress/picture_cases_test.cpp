@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(case_41_one_picture_however_it_is_made) {
   namespace scheduler = tessera::scheduler;
   Verdict verdict(41, "same bytes: tree and brute force, tiles of 1 to 1024 px, 1 to 64 ranks");
   app::RenderJob job = app::test::small_job();
-  const Scene tree(job.scene, Kernel::tree);
+  const Scene tree(job.scene, Kernel::automatic);
   const Scene brute(job.scene, Kernel::brute);
   const std::string reference = app::test::reference_files(job, tree);
   std::size_t different = app::test::reference_files(job, brute) != reference;

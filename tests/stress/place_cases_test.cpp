@@ -11,7 +11,7 @@ BOOST_AUTO_TEST_CASE(case_14_radius_zero_is_never_hit) {
   SceneData data;
   add_sphere(data, {1, 0, 0}, 0);
   add_sphere(data, {3, 0, 0}, 1);
-  for (const Kernel kernel : {Kernel::tree, Kernel::brute}) {
+  for (const Kernel kernel : {Kernel::automatic, Kernel::brute}) {
     const Scene scene = prepared(data, kernel);
     const auto hit = hit_from(scene, {}, {1, 0, 0});
     verdict.require(hit && index_of(hit->surface) == 1, "the sphere behind is seen");
@@ -23,7 +23,7 @@ BOOST_AUTO_TEST_CASE(case_17_eye_on_a_surface) {
   Verdict verdict(17, "own sphere unseen; far wall at 2r N.d; background");
   SceneData data;
   add_sphere(data, {}, 5);
-  const Scene scene(data, Kernel::tree);
+  const Scene scene(data, Kernel::automatic);
   verdict.require(!hit_from(scene, {3, 4, 0}, {3, 4, 0.5}), "outward: background");
   verdict.require(!hit_from(scene, {3, 4, 0}, {-4, 3, 0}), "along: background");
   const auto wall = hit_from(scene, {3, 4, 0}, {-1, 0, 0});
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(case_19_eye_just_above_a_surface) {
   for (const double r : {1.0, 1e3, 1e6, 1e9, 1e12}) {
     SceneData data;
     add_sphere(data, {}, r);
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     HitCheck check(scene);
     for (int k = 3; k <= 15; ++k) {
       for (int i = 0; i != 100; ++i) {
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(case_21_mirror_shows_the_front_of_its_neighbour) {
     SceneData data;
     add_sphere(data, {}, 1, mirror());
     add_sphere(data, {2 + std::pow(10.0, -k), 0, 0}, 1, glowing({1, 0, 0}));
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     const Region region = region_at(scene, {1, 5, 0}, {0, -1, 0});
     for (int i = 0; i != 500; ++i) {
       // From a point of the mirror that faces the neighbour, into its half space.
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(case_24_of_coincident_spheres_the_first_is_seen) {
     SceneData data;
     for (int i = 0; i != 40; ++i) add_sphere(data, random.in_box(2), random.uniform(0.1, 0.3));
     for (int i = 0; i != 40; ++i) data.spheres.push_back(data.spheres[static_cast<std::size_t>(i)]);
-    for (const Kernel kernel : {Kernel::tree, Kernel::brute}) {
+    for (const Kernel kernel : {Kernel::automatic, Kernel::brute}) {
       const Scene scene = prepared(data, kernel);
       for (int i = 0; i != 200; ++i) {
         const Sphere& aim = scene.sphere(surface_id(random.below(80)));

@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(case_01_spheres_at_any_distance) {
     const Vec3 away = random.direction();
     const Vec3 eye = distance * away;
     add_point_light(data, eye);
-    const Scene scene(data, Kernel::tree);
+    const Scene scene(data, Kernel::automatic);
     HitCheck check(scene);
     for (int i = 0; i != 1000; ++i) {
       const double passing =

@@ -34,12 +34,12 @@ BOOST_AUTO_TEST_CASE(case_28_light_on_a_surface_and_at_the_point) {
   SceneData data;
   add_sphere(data, {0, 0, 0}, 5, {.color = {1, 1, 1}, .ambient = 0.25, .diffuse = 1, .specular = 1, .shininess = 0});
   add_point_light(data, {3, 0, 4});
-  const Scene scene(data, Kernel::tree);
+  const Scene scene(data, Kernel::automatic);
   // Straight at the light: the shaded point is the light.
   verdict.require(seen_from(scene, {6, 0, 8}, {-3, 0, -4}) == Rgb{0.25, 0.25, 0.25}, "at the light: ambient");
   // A floor that the sphere stands on sees the light past the sphere that carries it.
   add_plane(data, {0, 0, 12}, {0, 0, -1}, matte());
-  const Scene roof(data, Kernel::tree);
+  const Scene roof(data, Kernel::automatic);
   const double seen = seen_from(roof, {3, 0, 11}, {0, 0, 1}).r;
   verdict.at_most("roof off by", std::abs(seen - 1), 1e-15);
   // Inside: the whole wall sees a light on it.
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(case_35_furnace) {
       data.environment.background = {0.125, 0, 0};
       data.image.max_bounces = n;
       const double rest = std::pow(k, n + 1);
-      const Scene scene(data, Kernel::tree);
+      const Scene scene(data, Kernel::automatic);
       for (int i = 0; i != 50; ++i) {
         const double seen = seen_from(scene, random.in_box(1), random.direction()).r;
         worst = std::max(worst, std::abs(seen - (0.75 * (1 - rest) + rest * 0.125)));
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(case_36_bounce_limits) {
   for (const std::uint32_t n : {0u, 1u, 0x7fffffffu}) {
     data.image.max_bounces = n;
     RayCounts counts;
-    seen_from(Scene(data, Kernel::tree), {0.5, 0, 0}, {0.5, 1, 0.25}, counts);
+    seen_from(Scene(data, Kernel::automatic), {0.5, 0, 0}, {0.5, 1, 0.25}, counts);
     const std::uint64_t mirrors = n <= 1 ? n : 6723;
     verdict.require(counts.mirror <= mirrors && counts.mirror + 4 > mirrors,
                     std::to_string(counts.mirror) + " bounces");

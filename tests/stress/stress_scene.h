@@ -21,7 +21,7 @@ namespace tessera::stress {
 using namespace tessera::render;
 using namespace tessera::render::test;
 
-inline Scene prepared(const SceneData& data, Kernel kernel = Kernel::tree) {
+inline Scene prepared(const SceneData& data, Kernel kernel = Kernel::automatic) {
   return Scene(unit_scaled(data), kernel);
 }
 

@@ -15,7 +15,7 @@ int main() {
   data.spheres.push_back({{0, 0, 0}, 1, render::MaterialIndex{0}});
   data.camera = render::Camera{.eye = {0, -3, 0}};
   data.image.width = data.image.height = 1;
-  const render::Scene scene(data, render::Kernel::tree);
+  const render::Scene scene(data, render::Kernel::automatic);
   std::vector<std::byte> pixel(3);
   render::TileRenderer(scene, render::PixelFormat::rgb8).render({0, 0, 1, 1}, {pixel}, [] {});
   const bool is_named = scheduler::parse_policy("guided").has_value() && io::image_format_of("a.png").has_value();

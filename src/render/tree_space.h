@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/box.h"
+#include "render/ray.h"
+
+// The tree's own coordinates, in float. They are only ever used to leave out what cannot be hit: everything is rounded
+// to the side on which too much is looked at.
+namespace tessera::render {
+
+/// Scene coordinates relative to a point among the spheres, in units in which the spheres reach about 1 from there.
+/// Floats are finest around the base, so it should be where most of the spheres are.
+struct TreeSpace {
+  /// More than a float's rounding of a coordinate x takes: kRounding |x| + kFloor, the second for numbers near 0.
+  static constexpr double kRounding = 0x1p-23;
+  static constexpr double kFloor = 0x1p-40;
+
+  Vec3 base;
+  double scale = 1;   ///< a power of two
+  Vec3 middle;        ///< of all spheres, in tree space
+  double extent = 0;  ///< every sphere is within this distance from the middle, in tree space
+
+  Vec3 from_scene(const Vec3& p) const noexcept { return (p - base) * scale; }
+
+  static float down(double x) noexcept { return static_cast<float>(x - (std::abs(x) * kRounding + kFloor)); }
+  static float up(double x) noexcept { return static_cast<float>(x + (std::abs(x) * kRounding + kFloor)); }
+};
+
+/// A ray as the tree sees it.
+///
+/// error:   boxes: the near side of a slab is taken from an origin that is rounded towards it, the far side from one
+///          rounded away, so both differences err outward; three roundings of each distance are within kSlack.
+///          spheres: with M = |C| + |O| (sums of sizes), the perpendicular from the centre to the line is off by less
+///          than 17 2^-24 M: 4.4 from rounding and subtracting C and O, 12 from rounding the direction, the foot and
+///          the products. So 2^-19 M, half of it counted with the sphere and half with the ray, outweighs it
+struct TreeRay {
+  static constexpr float kSlack = 1 + 0x1p-20F;
+  static constexpr double kSphereError = 0x1p-19;
+  /// An origin that is not known to this is not known at all: then every box and every sphere is looked at.
+  static constexpr double kFarthest = 0x1p30;
+
+  float near_origin[3];
+  float far_origin[3];
+  float inverse[3];       ///< of the direction, within +-2^100
+  unsigned near_side[3];  ///< 0: a box's low side is met first, 1: its high side
+  float origin[3];
+  float direction[3];  ///< of length 1
+  float sphere_error;  ///< the ray's share of what the distance of a centre from the line may be off by
+  double t_scale;      ///< t of the tree is t_scale t - t_shift, or a little less
+  double t_shift;
+
+  /// units:   inverse_length is 1 / |ray.direction|
+  TreeRay(const TreeSpace& space, const Ray& ray, double inverse_length) noexcept {
+    const Vec3 unit = ray.direction * inverse_length;
+    Vec3 o = space.from_scene(ray.origin);
+    // From far away, begin where the spheres do: what is far from the base rounds coarsely.
+    double off = 0;
+    t_shift = 0;
+    const Vec3 way = space.middle - o;
+    if (dot(way, way) > 16 * space.extent * space.extent) {
+      t_shift = std::sqrt(dot(way, way)) - 1.001 * space.extent;
+      off = 0x1p-50 * (sum_of_sizes(o) + t_shift);
+      o = o + t_shift * unit;
+    }
+    t_scale = space.scale / inverse_length * (1 + 0x1p-50);
+    t_shift *= 1 - 0x1p-50;
+    for (int axis = 0; axis != 3; ++axis) {
+      const double x = std::clamp(o[axis], -kFarthest, kFarthest);
+      const double d = unit[axis];
+      const float up = TreeSpace::up(std::min(x + off, kFarthest));
+      const float down = TreeSpace::down(std::max(x - off, -kFarthest));
+      const bool forward = !(d < 0);
+      near_origin[axis] = forward ? up : down;
+      far_origin[axis] = forward ? down : up;
+      near_side[axis] = forward ? 0 : 1;
+      constexpr double kHuge = 0x1p100;
+      inverse[axis] = static_cast<float>(d == 0 ? kHuge : std::clamp(1 / d, -kHuge, kHuge));
+      origin[axis] = static_cast<float>(x);
+      direction[axis] = static_cast<float>(d);
+    }
+    sphere_error = TreeSpace::up(std::min(kSphereError * sum_of_sizes(o) + 4 * off, 4 * kFarthest));
+  }
+
+  /// Scene distances in the tree's units, rounded up.
+  float t_of(double t) const noexcept {
+    return std::min(TreeSpace::up(t * t_scale - t_shift), std::numeric_limits<float>::max());
+  }
+};
+
+}  // namespace tessera::render
