@@ -10,6 +10,8 @@
 #include "render/path_error.h"
 #include "render/reference/quad_tracer.h"
 #include "render/signature_observer.h"
+#include "render/tile.h"
+#include "render/wavefront.h"
 
 namespace tessera::render {
 namespace {
@@ -17,6 +19,10 @@ namespace {
 /// A ray costs some 0.05 to 1 us, a pause of the caller's up to 0.4 us, and a slice should stay near 0.1 ms. Counting
 /// pixels instead would pause far too often in the sky and too rarely between mirrors.
 constexpr std::uint64_t kSliceRays = 256;
+
+/// Pixels that are seen together: enough rays to overlap, few enough for the cache.
+constexpr std::uint32_t kBlockSide = 16;
+constexpr std::size_t kPathsTogether = std::size_t{kBlockSide} * kBlockSide;
 
 /// A ray in quad precision takes more than a slice.
 std::uint64_t slice_rays_of(Tracer tracer) {
@@ -49,6 +55,57 @@ TileRenderer::TileRenderer(const Scene& scene, PixelFormat format, Tracer tracer
 
 RayCounts TileRenderer::render(const Rect& tile, const TilePixels& out,
                                const std::function<void()>& between_slices) const {
+  const bool colors_alone = out.signatures.empty() && out.errors.empty();
+  if (tracer_ == Tracer::reference || !colors_alone) return render_one_by_one(tile, out, between_slices);
+  RayCounts counts;
+  Wavefront wavefront(scene_, trace_options_);
+  for (const Rect& block : tile_grid(tile, kBlockSide, kBlockSide)) {
+    const std::vector<Rgb> pixels = block_pixels(block, wavefront, counts, between_slices);
+    const Rgb* pixel = pixels.data();
+    for (std::uint32_t y = block.y - tile.y; y != block.y - tile.y + block.height; ++y) {
+      const std::size_t first = std::size_t{y} * tile.width + (block.x - tile.x);
+      std::byte* color = out.colors.data() + first * bytes_per_pixel(format_);
+      for (std::uint32_t x = 0; x != block.width; ++x, color += bytes_per_pixel(format_)) {
+        encode_pixel(*pixel++, format_, scene_.data().image.transfer, color);
+      }
+    }
+  }
+  return counts;
+}
+
+std::vector<Rgb> TileRenderer::block_pixels(const Rect& block, Wavefront& wavefront, RayCounts& counts,
+                                            const std::function<void()>& between_slices) const {
+  std::vector<Rgb> pixels(block.pixels());
+  std::vector<RayInRegion> rays;
+  std::vector<std::size_t> pixel_of_ray;
+  std::vector<Rgb> radiances(kPathsTogether);
+  std::vector<Region> regions;  // where each ray has one of its own
+  regions.reserve(region_ ? 0 : kPathsTogether);
+  const auto trace = [&] {
+    const auto seen = std::span(radiances).first(rays.size());
+    wavefront.trace(rays, seen, counts, between_slices);
+    for (std::size_t i = 0; i != rays.size(); ++i) pixels[pixel_of_ray[i]] += seen[i];
+    rays.clear();
+    pixel_of_ray.clear();
+    regions.clear();
+  };
+  for (std::size_t pixel = 0; pixel != pixels.size(); ++pixel) {
+    const auto x = block.x + static_cast<std::uint32_t>(pixel % block.width);
+    const auto y = block.y + static_cast<std::uint32_t>(pixel / block.width);
+    for (std::uint32_t sample = 0; sample != grid_ * grid_; ++sample) {
+      const Ray ray = camera_ray(x, y, sample);
+      rays.push_back({ray, region_ ? &*region_ : &regions.emplace_back(region_of(ray))});
+      pixel_of_ray.push_back(pixel);
+      if (rays.size() == kPathsTogether) trace();
+    }
+  }
+  trace();
+  for (Rgb& pixel : pixels) pixel = mean_of_samples(pixel);
+  return pixels;
+}
+
+RayCounts TileRenderer::render_one_by_one(const Rect& tile, const TilePixels& out,
+                                          const std::function<void()>& between_slices) const {
   RayCounts counts;
   std::byte* color = out.colors.data();
   std::size_t index = 0;
@@ -73,41 +130,42 @@ RayCounts TileRenderer::render(const Rect& tile, const TilePixels& out,
 TileRenderer::Pixel TileRenderer::pixel(std::uint32_t x, std::uint32_t y, const TilePixels& asked,
                                         RayCounts& counts) const {
   Pixel pixel;
-  for (std::uint32_t j = 0; j != grid_; ++j) {
-    for (std::uint32_t i = 0; i != grid_; ++i) {
-      add_sample(x + (i + 0.5) / grid_, y + (j + 0.5) / grid_, asked, pixel, counts);
-    }
+  for (std::uint32_t sample = 0; sample != grid_ * grid_; ++sample) {
+    add_sample(camera_ray(x, y, sample), asked, pixel, counts);
   }
-  const double samples = static_cast<double>(grid_) * grid_;
-  pixel.color = pixel.color * (1 / samples);
+  pixel.color = mean_of_samples(pixel.color);
   // The sum rounds once a sample, its share of the pixel twice more.
+  const double samples = static_cast<double>(grid_) * grid_;
   const double brightest = std::max({pixel.color.r, pixel.color.g, pixel.color.b});
   if (samples > 1) pixel.error = pixel.error / samples + (samples + 4) * kUnitRoundoff * brightest;
   return pixel;
 }
 
-void TileRenderer::add_sample(double x, double y, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const {
-  const Ray ray = camera_.through(x, y);
+Ray TileRenderer::camera_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const noexcept {
+  return camera_.through(x + (sample % grid_ + 0.5) / grid_, y + (sample / grid_ + 0.5) / grid_);
+}
+
+Region TileRenderer::region_of(const Ray& ray) const {
+  const bool perspective = camera_.projection() == Projection::perspective;
+  return {scene_, perspective ? eye_placement_ : scene_.placement_of(ray.origin), ray.origin, ray.direction};
+}
+
+Rgb TileRenderer::mean_of_samples(const Rgb& sum) const noexcept {
+  return sum * (1 / (static_cast<double>(grid_) * grid_));
+}
+
+void TileRenderer::add_sample(const Ray& ray, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const {
   if (tracer_ == Tracer::reference) {
     const reference::QuadTracer tracer(scene_.data(), ray.origin, ray.direction);
     pixel.color += rounded(tracer.radiance(pixel.signature, counts));
     return;
   }
-  if (region_) {
-    pixel.color += traced(ray, *region_, asked, pixel, counts);
-    return;
-  }
-  const bool perspective = camera_.projection() == Projection::perspective;
-  const Region region(scene_, perspective ? eye_placement_ : scene_.placement_of(ray.origin), ray.origin,
-                      ray.direction);
-  pixel.color += traced(ray, region, asked, pixel, counts);
+  pixel.color +=
+      region_ ? traced(ray, *region_, asked, pixel, counts) : traced(ray, region_of(ray), asked, pixel, counts);
 }
 
 Rgb TileRenderer::traced(const Ray& ray, const Region& region, const TilePixels& asked, Pixel& pixel,
                          RayCounts& counts) const {
-  if (asked.signatures.empty() && asked.errors.empty()) {
-    return radiance_along(scene_, ray, region, trace_options_, counts);
-  }
   SignatureObserver signature(pixel.signature);
   PathError error(scene_, region, trace_options_.shade);
   PathObserver* const both[] = {&signature, &error};

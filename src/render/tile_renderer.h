@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "render/camera.h"
 #include "render/image.h"
@@ -32,6 +33,8 @@ struct TilePixels {
   std::span<float> errors{};  ///< bounds on the error of a linear channel, infinite where uncertified; see path_error.h
 };
 
+class Wavefront;
+
 class TileRenderer {
  public:
   /// requires: scene has a camera (see framed_camera) and outlives the renderer
@@ -47,9 +50,19 @@ class TileRenderer {
     Signature signature;
     double error = 0;
   };
+  /// Many paths at once, where nobody watches them.
+  std::vector<Rgb> block_pixels(const Rect& block, Wavefront& wavefront, RayCounts& counts,
+                                const std::function<void()>& between_slices) const;
+  RayCounts render_one_by_one(const Rect& tile, const TilePixels& out,
+                              const std::function<void()>& between_slices) const;
   Pixel pixel(std::uint32_t x, std::uint32_t y, const TilePixels& asked, RayCounts& counts) const;
-  void add_sample(double x, double y, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const;
+  void add_sample(const Ray& ray, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const;
   Rgb traced(const Ray& ray, const Region& region, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const;
+
+  /// shapes:  sample < samples per pixel, row by row on their grid
+  Ray camera_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const noexcept;
+  Region region_of(const Ray& ray) const;
+  Rgb mean_of_samples(const Rgb& sum) const noexcept;
 
   const Scene& scene_;
   PixelFormat format_;

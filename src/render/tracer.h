@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "render/path_observer.h"
@@ -17,6 +18,10 @@ struct TraceOptions {
   std::uint32_t max_bounces = 5;
   Shade shade = Shade::phong;
 };
+
+/// A path ends where what it sees would weigh less. Below the normal numbers rounding may keep a weight alive for
+/// ever: 0.9 times the smallest number is itself.
+inline constexpr double kLeastWeight = std::numeric_limits<double>::min();
 
 /// Radiance arriving at the origin of `camera_ray`: (1 - k) local + k mirrored at each surface, the background where
 /// a ray leaves the scene or the bounces end. A convex combination throughout.
