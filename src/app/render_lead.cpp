@@ -2,21 +2,19 @@
 #include "app/render_lead.h"
 
 #include <cstdio>
-#include <initializer_list>
-#include <map>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "app/exit_code.h"
+#include "app/framing.h"
 #include "app/report.h"
+#include "app/shared_names.h"
 #include "app/version.h"
 #include "io/error.h"
 #include "io/image_file.h"
 #include "io/pfm.h"
 #include "io/scene_reader.h"
 #include "io/signature_file.h"
-#include "render/camera.h"
 #include "render/check.h"
 #include "render/scale.h"
 
@@ -36,28 +34,6 @@ io::ImageFormat format_of(const std::filesystem::path& output) {
 
 std::uint64_t tiles_along(std::uint32_t length, std::uint32_t tile) {
   return (std::uint64_t{length} + tile - 1) / tile;
-}
-
-struct NamedPath {
-  const char* option;
-  std::optional<std::filesystem::path> path;
-};
-
-/// One file for two things would lose one of them; so would a file for one that another is still being written to.
-void refuse_shared_names(std::initializer_list<NamedPath> paths) {
-  namespace fs = std::filesystem;
-  std::map<fs::path, const char*> owners;
-  for (const auto& [option, path] : paths) {
-    if (!path || *path == "-") continue;
-    std::error_code error;
-    const fs::path file = fs::weakly_canonical(io::destination_of(fs::absolute(*path)), error);
-    if (error || (fs::exists(file, error) && !fs::is_regular_file(file, error))) continue;
-    for (const fs::path& taken : {file, io::partial_name_of(file)}) {
-      const auto [owner, is_new] = owners.emplace(taken, option);
-      if (is_new || owner->second == option) continue;
-      throw UsageError(std::string(option) + ": \"" + path->string() + "\" is " + owner->second + " as well");
-    }
-  }
 }
 
 }  // namespace
@@ -117,12 +93,7 @@ void RenderLead::read_scene() {
     throw io::Error(io::ErrorKind::bad_scene, options_.input.string() + ": " + *problem);
   }
   job_.scene = unit_scaled(std::move(job_.scene));
-  if (job_.scene.camera) return;
-  job_.scene.camera = framed_camera(bounds_of(job_.scene), image.width, image.height);
-  if (const auto problem = problem_with(*job_.scene.camera)) {
-    throw io::Error(io::ErrorKind::bad_scene,
-                    options_.input.string() + ": the scene has no camera and none fits its bounds: " + *problem);
-  }
+  require_camera(job_.scene, options_.input);
 }
 
 void RenderLead::plan_schedule() {
