@@ -8,6 +8,7 @@
 
 #include "app/exit_code.h"
 #include "app/version.h"
+#include "io/scene_writer.h"
 #include "io/suggest.h"
 
 namespace tessera::app {
@@ -218,6 +219,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   RenderOptions render;
   CompareOptions compare;
   InfoOptions info;
+  ConvertOptions convert;
 
   CLI::App app{"Tessera renders scenes of spheres on every core that mpirun gives it.", "tessera"};
   app.set_version_flag("--version", std::string("tessera ") + kVersion);
@@ -247,7 +249,14 @@ Command parse_command_line(int argc, const char* const* argv) {
   CLI::App& info_app = *app.add_subcommand("info", "say what a scene holds and what it takes");
   info_app.add_option("INPUT", info.input, "scene")->required();
 
-  for (CLI::App* command : {&app, &render_app, &compare_app, &info_app}) command->allow_extras();
+  CLI::App& convert_app = *app.add_subcommand("convert", "write a scene for another renderer");
+  convert_app.add_option("INPUT", convert.input, "scene")->required();
+  convert_app.add_option("-o,--output", convert.output, "scene: " + std::string(io::kSceneEndings))
+      ->required()
+      ->type_name("FILE");
+  convert_app.add_flag("-q,--quiet", convert.quiet, "no notes; errors always");
+
+  for (CLI::App* command : {&app, &render_app, &compare_app, &info_app, &convert_app}) command->allow_extras();
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -259,18 +268,19 @@ Command parse_command_line(int argc, const char* const* argv) {
     throw UsageError(error.what());
   }
 
-  for (const CLI::App* command : {&render_app, &compare_app, &info_app}) {
+  for (const CLI::App* command : {&render_app, &compare_app, &info_app, &convert_app}) {
     if (command->parsed() && !command->remaining().empty()) refuse_extras(*command, command->remaining());
   }
   if (!app.remaining().empty()) {
     const std::string word = app.remaining().front();
-    throw UsageError("unknown command \"" + word + "\"" + io::did_you_mean(word, {"render", "compare", "info"}) +
-                     " (see tessera --help)");
+    throw UsageError("unknown command \"" + word + "\"" +
+                     io::did_you_mean(word, {"render", "compare", "info", "convert"}) + " (see tessera --help)");
   }
   if (compare_app.parsed() && (!std::isfinite(compare.tolerance) || compare.tolerance < 0))
     throw UsageError("--tolerance must be a finite number >= 0");
   if (compare_app.parsed()) return compare;
   if (info_app.parsed()) return info;
+  if (convert_app.parsed()) return convert;
   if (!render_app.parsed())
     throw UsageError("a command is missing: tessera render SCENE -o out.png, or see tessera --help");
   if (render.output.empty()) render.output = render.input.stem().concat(".png");

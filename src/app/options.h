@@ -64,12 +64,18 @@ struct InfoOptions {
   std::filesystem::path input;
 };
 
+struct ConvertOptions {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  bool quiet = false;
+};
+
 /// Text asked for instead of a command: --help or --version.
 struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<RenderOptions, CompareOptions, InfoOptions, TextRequest>;
+using Command = std::variant<RenderOptions, CompareOptions, InfoOptions, ConvertOptions, TextRequest>;
 
 /// throws:  UsageError
 Command parse_command_line(int argc, const char* const* argv);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/compare_command.h"
+#include "app/convert_command.h"
 #include "app/info_command.h"
 #include "app/options.h"
 #include "app/render_command.h"
@@ -41,6 +42,7 @@ ExitCode run(int argc, char** argv) {
   ExitCode code = ExitCode::success;
   if (const auto* compare = std::get_if<CompareOptions>(&command)) code = run_compare(*compare);
   if (const auto* info = std::get_if<InfoOptions>(&command)) code = run_info(*info);
+  if (const auto* convert = std::get_if<ConvertOptions>(&command)) code = run_convert(*convert);
   if (const auto* request = std::get_if<TextRequest>(&command)) std::fputs(request->text.c_str(), stdout);
   flush_stdout();
   return code;

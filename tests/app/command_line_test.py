@@ -182,6 +182,42 @@ class CommandLineTest(running_program.ProgramTest):
         self.assertEqual(run.returncode, 0)
         self.assertRegex(run.stdout, r"spheres +1\nplanes +1\nlights +1\n")
 
+    def convert(self, *words):
+        run = self.run_tessera("convert", *words)
+        self.assertEqual((run.returncode, run.stdout), (0, ""), run.stderr)
+        return run.stderr
+
+    def test_convert_writes_the_format_of_the_ending_and_notes(self):
+        self.assertRegex(self.convert(self.scene, "-o", "small.dat"), r"^note: .*mirror image")
+        self.assertEqual(self.convert(self.scene, "-o", "small.POV", "-q"), "")
+        self.assertIn("#version 3.7", (self.folder / "small.POV").read_text())
+
+    def test_a_left_handed_scene_keeps_its_picture_as_dat(self):
+        scene = self.write("left.toml", SMALL_SCENE.replace("[camera]", '[camera]\nhandedness = "left"'))
+        self.assertEqual(self.convert(scene, "-o", "left.dat"), "")
+        for name in ("left.toml", "left.dat"):
+            self.run_tessera("render", name, "-o", name + ".png", "--transfer", "none", "-q")
+        # Weights go through a product and a quotient, which may round them to the next byte.
+        self.assertEqual(self.run_tessera("compare", "left.toml.png", "left.dat.png", "--tolerance", "0.004").returncode, 0)
+
+    def test_convert_frames_a_scene_without_a_camera(self):
+        self.convert(self.write("row.txt", "0 0 0 1\n3 0 0 1\n"), "-o", "row.dat", "-q")
+        self.assertIn("CENTER 3.", (self.folder / "row.dat").read_text())
+        self.assertEqual(self.run_tessera("render", "row.dat", "-r", "32x18", "-o", "row.png").returncode, 0)
+
+    def test_what_cannot_be_converted(self):
+        scene = self.scene
+        self.assert_refused(USAGE, "convert", scene, says="output")
+        self.assert_refused(USAGE, "convert", scene, "-o", "out.obj", says=["out.obj", ".pov", ".dat"], ranks=(0,))
+        self.assert_refused(INPUT_MISSING, "convert", "nowhere.toml", "-o", "out.dat", says="nowhere.toml", ranks=(0,))
+        self.assert_refused(CANNOT_CREATE, "convert", scene, "-o", "no/out.dat", says="no/out.dat", ranks=(0,))
+        bad = self.write("bad.toml", "[[sphere]]\nradius = -1\n")
+        self.assert_refused(BAD_SCENE, "convert", bad, "-o", "out.dat", says="bad.toml:1:", ranks=(0,))
+        self.convert(scene, "-o", "same.dat", "-q")
+        before = (self.folder / "same.dat").read_bytes()
+        self.assert_refused(USAGE, "convert", "same.dat", "-o", "./same.dat", says="INPUT as well", ranks=(0,))
+        self.assertEqual((self.folder / "same.dat").read_bytes(), before)
+
     def test_help_and_version_go_to_stdout_once(self):
         for words in [["--help"], ["render", "--help"], ["--version"]]:
             for ranks in (0, 2):

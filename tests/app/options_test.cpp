@@ -133,6 +133,18 @@ BOOST_AUTO_TEST_CASE(what_is_missing_or_too_much_is_named) {
   BOOST_TEST(contains(complaint({"compare", "a.png", "b.png", "--tolerance", "-1"}), "tolerance"));
 }
 
+BOOST_AUTO_TEST_CASE(a_conversion_needs_input_and_output) {
+  const auto options = std::get<ConvertOptions>(parse({"convert", "a.toml", "-o", "b.dat", "-q"}));
+  BOOST_TEST(options.input == "a.toml");
+  BOOST_TEST(options.output == "b.dat");
+  BOOST_TEST(options.quiet);
+  BOOST_TEST(!std::get<ConvertOptions>(parse({"convert", "a.toml", "--output", "b.dat"})).quiet);
+  BOOST_TEST(contains(complaint({"convert", "a.toml"}), "output"));
+  BOOST_TEST(contains(complaint({"convert", "-o", "b.dat"}), "INPUT"));
+  BOOST_TEST(contains(complaint({"convert", "a.toml", "b.dat", "-o", "c.dat"}), "b.dat"));
+  BOOST_TEST(contains(complaint({"covert", "a.toml"}), "did you mean \"convert\""));
+}
+
 BOOST_AUTO_TEST_CASE(help_and_version_are_texts_not_errors) {
   BOOST_TEST(contains(std::get<TextRequest>(parse({"--help"})).text, "render"));
   BOOST_TEST(contains(std::get<TextRequest>(parse({"render", "--help"})).text, "--tile-size"));
