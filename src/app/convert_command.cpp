@@ -27,6 +27,15 @@ void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
+/// throws:  UsageError where the table would take the scene's place
+void write_table(const std::string& text, const ConvertOptions& options) {
+  const std::filesystem::path path = io::sphere_table_beside(options.output);
+  refuse_shared_names({{"INPUT", options.input}, {"-o", options.output}, {"the table of its spheres", path}});
+  io::OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 }  // namespace
 
 ExitCode run_convert(const ConvertOptions& options) {
@@ -35,9 +44,10 @@ ExitCode run_convert(const ConvertOptions& options) {
   io::OutputFile file(options.output);
 
   auto [scene, read_notes] = io::read_scene(options.input);
-  require_camera(scene, options.input);
-  const io::WrittenScene written = write_scene(format, scene);
+  if (format != io::SceneFormat::toml) require_camera(scene, options.input);
+  const io::WrittenScene written = write_scene(format, scene, options.output);
   file.write(written.text);
+  if (!written.sphere_table.empty()) write_table(written.sphere_table, options);
   file.commit();
   if (options.quiet) return ExitCode::success;
   print_notes(read_notes);

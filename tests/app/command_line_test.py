@@ -200,6 +200,17 @@ class CommandLineTest(running_program.ProgramTest):
         # Weights go through a product and a quotient, which may round them to the next byte.
         self.assertEqual(self.run_tessera("compare", "left.toml.png", "left.dat.png", "--tolerance", "0.004").returncode, 0)
 
+    def test_a_scene_written_as_toml_keeps_its_picture_to_the_byte(self):
+        flake = self.write("flake.toml", SMALL_SCENE + '[generate]\nkind = "sphereflake"\nlevel = 3\n')
+        for scene, name in [(self.scene, "plain"), (flake, "bulk")]:
+            note = self.convert(scene, "-o", name + ".toml")
+            self.assertEqual(note, "note: the 821 spheres are in bulk.spheres.txt\n" if name == "bulk" else "")
+            self.run_tessera("render", scene, "-o", "a.png", "-q")
+            self.run_tessera("render", name + ".toml", "-o", "b.png", "-q")
+            self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        self.assert_refused(USAGE, "convert", self.write("c.spheres.txt", "0 0 0 1\n" * 400), "-o", "c.toml",
+                            says="the table of its spheres", ranks=(0,))
+
     def test_convert_frames_a_scene_without_a_camera(self):
         self.convert(self.write("row.txt", "0 0 0 1\n3 0 0 1\n"), "-o", "row.dat", "-q")
         self.assertIn("CENTER 3.", (self.folder / "row.dat").read_text())
@@ -208,7 +219,7 @@ class CommandLineTest(running_program.ProgramTest):
     def test_what_cannot_be_converted(self):
         scene = self.scene
         self.assert_refused(USAGE, "convert", scene, says="output")
-        self.assert_refused(USAGE, "convert", scene, "-o", "out.obj", says=["out.obj", ".pov", ".dat"], ranks=(0,))
+        self.assert_refused(USAGE, "convert", scene, "-o", "out.obj", says=["out.obj", ".toml, .pov or .dat"], ranks=(0,))
         self.assert_refused(INPUT_MISSING, "convert", "nowhere.toml", "-o", "out.dat", says="nowhere.toml", ranks=(0,))
         self.assert_refused(CANNOT_CREATE, "convert", scene, "-o", "no/out.dat", says="no/out.dat", ranks=(0,))
         bad = self.write("bad.toml", "[[sphere]]\nradius = -1\n")
