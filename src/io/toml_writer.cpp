@@ -85,8 +85,9 @@ std::string table_of(const SceneData& scene, const MaterialNames& names) {
   out.reserve(scene.spheres.size() * kBytesPerSphere);
   for (const render::Sphere& sphere : scene.spheres) {
     out << sphere.center << " " << sphere.radius << " ";
-    if (!names.has_name(sphere.material))
+    if (!names.has_name(sphere.material)) {
       out << scene.materials[static_cast<std::size_t>(sphere.material)].color << " ";
+    }
     out << names.name_of(sphere.material) << "\n";
   }
   return out.take();
