@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "embree_scene.h"
+#include "render/camera.h"
+#include "render/ray_counts.h"
+
+// The pixel loop: camera rays, shading, shadows and mirrors around Embree.
+namespace tessera::embree {
+
+enum class Mode : std::uint8_t {
+  single,   ///< every ray by itself
+  packets,  ///< camera rays of 4x2 pixels, and their shadow rays, eight at a time
+};
+
+struct Picture {
+  std::vector<Triple<float>> pixels;  ///< linear, row by row, top row first
+  render::RayCounts rays;
+};
+
+/// Draws the scene on the calling thread, one ray through the centre of each pixel.
+Picture draw(const Scene& scene, const render::CameraRays& camera, std::uint32_t width, std::uint32_t height,
+             Mode mode);
+
+}  // namespace tessera::embree
