@@ -4,6 +4,7 @@
 #   scripts/install_packages.sh          to build and render
 #   scripts/install_packages.sh test     to run the tests too
 #   scripts/install_packages.sh bench    to build the benchmark programs too
+#   scripts/install_packages.sh peers    to measure other ray tracers beside it (scripts/compare_peers.py)
 set -euo pipefail
 
 packages=(
@@ -16,6 +17,12 @@ packages=(
 )
 if [ "${1:-}" = bench ]; then
   packages+=(libbenchmark-dev)          # benchmark programs
+fi
+if [ "${1:-}" = peers ]; then
+  packages+=(
+    libembree-dev tachyon povray        # other ray tracers
+    python3-matplotlib                  # the chart, and its arrays
+  )
 fi
 if [ "${1:-}" = test ]; then
   packages+=(
