@@ -1,62 +1,65 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <experimental/simd>
 
-// Vectors of float lanes, one lane a ray; one lane is a plain float. In its own namespace, so that nothing here is ever
-// mistaken for the renderer's own arithmetic.
+#include "embree_triple.h"
+
+// Eight rays at a time in single precision, a lane each.
 namespace tessera::embree {
 
 namespace stdx = std::experimental;
 
-template <std::size_t W>
-using Lanes = stdx::simd<float, stdx::simd_abi::deduce_t<float, W>>;
-template <std::size_t W>
-using LaneMask = typename Lanes<W>::mask_type;
+inline constexpr std::size_t kLanes = 8;
+using Lanes = stdx::simd<float, stdx::simd_abi::deduce_t<float, kLanes>>;
+using LaneMask = Lanes::mask_type;
 
-template <class F>
-struct Triple {
-  F x{}, y{}, z{};
+using Wide = Triple<Lanes>;
 
-  friend Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Triple operator*(const Triple& a, const Triple& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-  friend Triple operator*(const F& s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
-  Triple& operator+=(const Triple& o) { return *this = *this + o; }
-};
-
-template <class F>
-F dot(const Triple<F>& a, const Triple<F>& b) {
+inline Lanes dot(const Wide& a, const Wide& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-template <class F>
-Triple<F> normalized(const Triple<F>& a) {
-  using std::sqrt;
-  return (F(1) / sqrt(dot(a, a))) * a;
+inline Wide normalized(const Wide& a) {
+  return (1.0F / sqrt(dot(a, a))) * a;
 }
 
 /// The same vector in every lane.
-template <std::size_t W>
-Triple<Lanes<W>> broadcast(const Triple<float>& a) {
-  return {Lanes<W>(a.x), Lanes<W>(a.y), Lanes<W>(a.z)};
+inline Wide broadcast(const Triple<float>& a) {
+  return {Lanes(a.x), Lanes(a.y), Lanes(a.z)};
+}
+
+/// One lane of a vector.
+inline void set(Wide& lanes, std::size_t i, const Triple<float>& value) {
+  lanes.x[i] = value.x;
+  lanes.y[i] = value.y;
+  lanes.z[i] = value.z;
 }
 
 /// `value` where the mask is set, 0 elsewhere.
-template <class F>
-F masked(const typename F::mask_type& mask, F value) {
+inline Lanes masked(const LaneMask& mask, Lanes value) {
   stdx::where(!mask, value) = 0;
   return value;
 }
 
+/// `b` where the mask is set, `a` elsewhere.
+inline Wide chosen(const LaneMask& mask, Wide a, const Wide& b) {
+  stdx::where(mask, a.x) = b.x;
+  stdx::where(mask, a.y) = b.y;
+  stdx::where(mask, a.z) = b.z;
+  return a;
+}
+
+inline Lanes largest_component(const Wide& a) {
+  return stdx::max(stdx::max(abs(a.x), abs(a.y)), abs(a.z));
+}
+
 /// base^exponent for whole exponents, by squaring.
-template <class F>
-F whole_power(F base, F exponent) {
-  F power = 1;
+inline Lanes whole_power(Lanes base, const Lanes& exponent) {
+  Lanes power = 1;
   for (auto rest = stdx::static_simd_cast<int>(exponent); stdx::any_of(rest > 0); rest >>= 1) {
-    power = stdx::static_simd_cast<F>(rest & 1) * (base - 1) * power + power;
+    power *= stdx::static_simd_cast<Lanes>(rest & 1) * (base - 1) + 1;
     base *= base;
   }
   return power;

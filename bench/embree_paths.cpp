@@ -4,6 +4,7 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "embree_traversal.h"
@@ -14,36 +15,25 @@ namespace {
 /// A ray may meet its own surface nearer than this, in multiples of the numbers that its origin was computed from.
 constexpr float kOwnSurface = 4e-6F;
 
-/// How each kind of ray is handed over.
-struct Hands {
-  Hand camera;
-  Hand shadow;  ///< of what the camera sees
-  bool is_mirror_in_wave;
-};
-
-template <std::size_t W>
+/// What the rays met.
 struct Surface {
-  LaneMask<W> hit;
-  Triple<Lanes<W>> point;
-  Triple<Lanes<W>> normal;  ///< unit, against the ray
-  Lanes<W> near;            ///< of the rays that leave it
-  std::uint32_t material[W];
+  LaneMask is_hit;
+  Wide point;
+  Wide normal;  ///< unit, against the ray
+  Lanes near;   ///< of the rays that leave it
+  std::array<std::uint32_t, kLanes> material{};
 };
 
-/// What the shading needs of the lanes' materials.
-template <std::size_t W>
+/// The surfaces' materials.
 struct Materials {
-  Triple<Lanes<W>> ambient, diffuse;
-  Lanes<W> specular, shininess, reflection;
+  Wide ambient, diffuse;
+  Lanes specular, shininess, reflection;
 };
 
-class Painter {
+/// Camera rays as functions of the pixel: origin and direction are linear in its place.
+class WideCamera {
  public:
-  Painter(const Scene& scene, const render::CameraRays& camera) : scene_(scene) {
-    const auto to_float = [](const render::Vec3& v) {
-      return Triple<float>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-    };
-    // Both are linear in the pixel's place.
+  explicit WideCamera(const render::CameraRays& camera) {
     const render::Ray corner = camera.through(0.5, 0.5);
     const render::Ray right = camera.through(1.5, 0.5);
     const render::Ray below = camera.through(0.5, 1.5);
@@ -53,240 +43,206 @@ class Painter {
     direction_ = to_float(corner.direction);
     direction_x_ = to_float(right.direction - corner.direction);
     direction_y_ = to_float(below.direction - corner.direction);
-    rtcInitIntersectContext(&incoherent_);
-    rtcInitIntersectContext(&coherent_);
-    coherent_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   }
 
-  template <std::size_t W>
-  Rays<W> camera_rays(const Lanes<W>& x, const Lanes<W>& y) const {
-    return {broadcast<W>(origin_) + x * broadcast<W>(origin_x_) + y * broadcast<W>(origin_y_),
-            normalized(broadcast<W>(direction_) + x * broadcast<W>(direction_x_) + y * broadcast<W>(direction_y_)), 0,
+  Rays through(const Lanes& x, const Lanes& y) const {
+    return {broadcast(origin_) + x * broadcast(origin_x_) + y * broadcast(origin_y_),
+            normalized(broadcast(direction_) + x * broadcast(direction_x_) + y * broadcast(direction_y_)), 0,
             kInfinity};
   }
 
-  template <Hands hands, std::size_t W>
-  Triple<Lanes<W>> radiance(Rays<W> rays, LaneMask<W> active, Lanes<W> weight, std::uint32_t bounce);
-
-  render::RayCounts counts;
-
  private:
-  template <Hand hand, std::size_t W>
-  Surface<W> nearest(const Rays<W>& rays, const LaneMask<W>& active);
-  template <Hand hand, std::size_t W>
-  Triple<Lanes<W>> local(const Surface<W>& surface, const Materials<W>& material, const Triple<Lanes<W>>& direction);
-  template <std::size_t W>
-  Materials<W> gather(const Surface<W>& surface) const;
-  template <std::size_t W>
-  LaneMask<W> is_behind_plane(const Rays<W>& rays) const;
-
-  const Scene& scene_;
   Triple<float> origin_, origin_x_, origin_y_;
   Triple<float> direction_, direction_x_, direction_y_;
-  RTCIntersectContext incoherent_;
-  RTCIntersectContext coherent_;
 };
 
-template <std::size_t W>
-std::uint64_t count_of(const LaneMask<W>& mask) {
+/// Follows the paths of eight pixels.
+template <Hand hand>
+class Painter {
+ public:
+  explicit Painter(const Scene& scene) : scene_(scene), tree_(scene.tree.get()) {
+    rtcInitIntersectContext(&context_);
+    context_.flags = hand == Hand::packet ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
+
+  Wide radiance_along(Rays rays, LaneMask active);
+  const render::RayCounts& counts() const { return counts_; }
+
+ private:
+  Surface nearest(Rays rays, const LaneMask& active);
+  Materials materials_of(const Surface& surface) const;
+  Wide local_radiance(const Surface& surface, const Materials& material, const Wide& direction);
+  Lanes highlight(const Materials& material, const Lanes& cosine) const;
+  bool has_planes() const { return !scene_.planes.empty(); }
+
+  const Scene& scene_;
+  RTCScene tree_;
+  RTCIntersectContext context_;
+  render::RayCounts counts_;
+};
+
+std::uint64_t count_of(const LaneMask& mask) {
   return static_cast<std::uint64_t>(stdx::popcount(mask));
 }
 
-template <std::size_t W>
-Lanes<W> distance_to(const FloatPlane& plane, const Rays<W>& rays) {
-  const auto normal = broadcast<W>(plane.normal);
+Lanes distance_to(const FloatPlane& plane, const Rays& rays) {
+  const Wide normal = broadcast(plane.normal);
   return (plane.offset - dot(normal, rays.origin)) / dot(normal, rays.direction);
 }
 
-template <Hand hand, std::size_t W>
-Surface<W> Painter::nearest(const Rays<W>& asked, const LaneMask<W>& active) {
-  using F = Lanes<W>;
-  // Find the planes first: they shorten the way through the tree.
-  Rays<W> rays = asked;
-  F plane_index = -1;
-  for (std::size_t i = 0; i != scene_.planes.size(); ++i) {
-    const F t = distance_to(scene_.planes[i], rays);
-    const auto nearer = t > rays.near && t < rays.far;
-    where(nearer, rays.far) = t;
-    where(nearer, plane_index) = static_cast<float>(i);
+LaneMask is_cut_by_plane(const Scene& scene, const Rays& rays) {
+  LaneMask is_cut(false);
+  for (const FloatPlane& plane : scene.planes) {
+    const Lanes t = distance_to(plane, rays);
+    is_cut = is_cut || (t > rays.near && t < rays.far);
   }
-  TreeHits<W> hits{};
-  intersect<hand>(scene_.tree.get(), hand == Hand::packet ? coherent_ : incoherent_, rays, active, hits);
+  return is_cut;
+}
 
-  Surface<W> surface;
-  F radius = 0;
-  F center_x = 0, center_y = 0, center_z = 0;
-  LaneMask<W> is_sphere(false);
-  for (std::size_t i = 0; i != W; ++i) {
-    surface.material[i] = 0;
-    if (!active[i]) continue;
-    if (hits.sphere[i] != RTC_INVALID_GEOMETRY_ID) {
-      const FloatSphere& sphere = scene_.spheres[hits.sphere[i]];
-      is_sphere[i] = true;
-      center_x[i] = sphere.x;
-      center_y[i] = sphere.y;
-      center_z[i] = sphere.z;
-      radius[i] = sphere.radius;
-      surface.material[i] = scene_.sphere_materials[hits.sphere[i]];
-    } else if (plane_index[i] >= 0) {
-      surface.material[i] = scene_.planes[static_cast<std::size_t>(static_cast<float>(plane_index[i]))].material;
+template <Hand hand>
+Surface Painter<hand>::nearest(Rays rays, const LaneMask& active) {
+  // Planes first: they shorten the way through the tree.
+  Surface surface;
+  Wide plane_normal;
+  for (const FloatPlane& plane : scene_.planes) {
+    const Lanes t = distance_to(plane, rays);
+    const LaneMask is_nearer = t > rays.near && t < rays.far;
+    stdx::where(is_nearer, rays.far) = t;
+    plane_normal = chosen(is_nearer, plane_normal, broadcast(plane.normal));
+    for (std::size_t i = 0; i != kLanes; ++i) {
+      if (is_nearer[i]) surface.material[i] = plane.material;
     }
   }
-  surface.hit = active && (is_sphere || plane_index >= 0.0F);
+  const TreeHits hits = intersect<hand>(tree_, context_, rays, active);
+
+  LaneMask is_sphere(false);
+  Wide center;
+  Lanes radius = 0;
+  for (std::size_t i = 0; i != kLanes; ++i) {
+    if (!active[i] || hits.sphere[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const FloatSphere& sphere = scene_.spheres[hits.sphere[i]];
+    is_sphere[i] = true;
+    set(center, i, {sphere.x, sphere.y, sphere.z});
+    radius[i] = sphere.radius;
+    surface.material[i] = scene_.sphere_materials[hits.sphere[i]];
+  }
+  surface.is_hit = is_sphere;
 
   // A point on a sphere is best taken from the sphere: the way along the ray costs digits.
-  constexpr stdx::vector_aligned_tag kAligned;
-  surface.normal =
-      normalized(Triple<F>{F(hits.normal_x, kAligned), F(hits.normal_y, kAligned), F(hits.normal_z, kAligned)});
-  surface.point = Triple<F>{center_x, center_y, center_z} + radius * surface.normal;
-  if (!scene_.planes.empty()) {
-    const Triple<F> on_plane = rays.origin + rays.far * rays.direction;
-    for (std::size_t i = 0; i != W; ++i) {
-      if (is_sphere[i] || !(plane_index[i] >= 0)) continue;
-      const FloatPlane& plane = scene_.planes[static_cast<std::size_t>(static_cast<float>(plane_index[i]))];
-      surface.normal.x[i] = plane.normal.x;
-      surface.normal.y[i] = plane.normal.y;
-      surface.normal.z[i] = plane.normal.z;
-    }
-    where(!is_sphere, surface.point.x) = on_plane.x;
-    where(!is_sphere, surface.point.y) = on_plane.y;
-    where(!is_sphere, surface.point.z) = on_plane.z;
-    where(!is_sphere, radius) = rays.far;
+  surface.normal = normalized(hits.normal);
+  surface.point = center + radius * surface.normal;
+  if (has_planes()) {
+    surface.is_hit = active && (is_sphere || rays.far < kInfinity);
+    surface.normal = chosen(is_sphere, plane_normal, surface.normal);
+    surface.point = chosen(is_sphere, rays.origin + rays.far * rays.direction, surface.point);
+    stdx::where(!is_sphere, radius) = rays.far;
   }
-  const auto from_behind = dot(surface.normal, rays.direction) > 0.0F;
-  where(from_behind, surface.normal.x) = -surface.normal.x;
-  where(from_behind, surface.normal.y) = -surface.normal.y;
-  where(from_behind, surface.normal.z) = -surface.normal.z;
-  using std::abs;
-  const F largest = stdx::max(stdx::max(abs(surface.point.x), abs(surface.point.y)), abs(surface.point.z));
-  surface.near = kOwnSurface * stdx::max(largest, radius);
+  surface.normal = chosen(dot(surface.normal, rays.direction) > 0.0F, surface.normal, Lanes(-1) * surface.normal);
+  surface.near = kOwnSurface * stdx::max(radius, largest_component(surface.point));
   return surface;
 }
 
-template <std::size_t W>
-Materials<W> Painter::gather(const Surface<W>& surface) const {
-  Materials<W> m;
-  for (std::size_t i = 0; i != W; ++i) {
+template <Hand hand>
+Materials Painter<hand>::materials_of(const Surface& surface) const {
+  Materials all;
+  for (std::size_t i = 0; i != kLanes; ++i) {
     const FloatMaterial& material = scene_.materials[surface.material[i]];
-    m.ambient.x[i] = material.ambient.x;
-    m.ambient.y[i] = material.ambient.y;
-    m.ambient.z[i] = material.ambient.z;
-    m.diffuse.x[i] = material.diffuse.x;
-    m.diffuse.y[i] = material.diffuse.y;
-    m.diffuse.z[i] = material.diffuse.z;
-    m.specular[i] = material.specular;
-    m.shininess[i] = material.shininess;
-    m.reflection[i] = material.reflection;
+    set(all.ambient, i, material.ambient);
+    set(all.diffuse, i, material.diffuse);
+    all.specular[i] = material.specular;
+    all.shininess[i] = material.shininess;
+    all.reflection[i] = material.reflection;
   }
-  return m;
+  return all;
 }
 
-template <std::size_t W>
-LaneMask<W> Painter::is_behind_plane(const Rays<W>& rays) const {
-  LaneMask<W> behind(false);
-  for (const FloatPlane& plane : scene_.planes) {
-    const Lanes<W> t = distance_to(plane, rays);
-    behind = behind || (t > rays.near && t < rays.far);
-  }
-  return behind;
+/// specular cosine^shininess.
+/// shapes:  cosine in [0, 1]
+template <Hand hand>
+Lanes Painter<hand>::highlight(const Materials& material, const Lanes& cosine) const {
+  if (scene_.has_whole_shininess) return material.specular * whole_power(cosine, material.shininess);
+  Lanes power;
+  for (std::size_t i = 0; i != kLanes; ++i) power[i] = std::pow(float(cosine[i]), float(material.shininess[i]));
+  return material.specular * power;
 }
 
 /// Ambient light and every light that reaches the surface.
-template <Hand hand, std::size_t W>
-Triple<Lanes<W>> Painter::local(const Surface<W>& surface, const Materials<W>& material,
-                                const Triple<Lanes<W>>& direction) {
-  using F = Lanes<W>;
-  Triple<F> sum = material.ambient;
+template <Hand hand>
+Wide Painter<hand>::local_radiance(const Surface& surface, const Materials& material, const Wide& direction) {
+  Wide sum = material.ambient;
+  const LaneMask is_seen = surface.is_hit && material.reflection < 1.0F;
+  const Wide mirrored = direction - (2.0F * dot(surface.normal, direction)) * surface.normal;
   for (const FloatLight& light : scene_.lights) {
-    Rays<W> rays{surface.point, broadcast<W>(light.vector), surface.near, kInfinity};
+    Rays rays{surface.point, broadcast(light.vector), surface.near, kInfinity};
     if (light.is_point) {
-      const Triple<F> reach = broadcast<W>(light.vector) - surface.point;
-      using std::sqrt;
+      const Wide reach = rays.direction - surface.point;
       rays.far = sqrt(dot(reach, reach));
       rays.direction = (1.0F / rays.far) * reach;
     }
-    const F n_l = dot(surface.normal, rays.direction);
-    auto lit = surface.hit && n_l > 0.0F;
-    if (!scene_.planes.empty()) lit = lit && !is_behind_plane(rays);
-    if (stdx::none_of(lit)) continue;
-    counts.shadow += count_of<W>(lit);
-    lit = lit && !occluded<hand>(scene_.tree.get(), hand == Hand::packet ? coherent_ : incoherent_, rays, lit);
-    if (stdx::none_of(lit)) continue;
+    const Lanes n_l = dot(surface.normal, rays.direction);
+    LaneMask is_lit = is_seen && n_l > 0.0F;
+    if (has_planes()) is_lit = is_lit && !is_cut_by_plane(scene_, rays);
+    if (stdx::none_of(is_lit)) continue;
+    counts_.shadow += count_of(is_lit);
+    is_lit = is_lit && !is_occluded<hand>(tree_, context_, rays, is_lit);
+    if (stdx::none_of(is_lit)) continue;
 
-    const F cosine = dot(rays.direction, direction) - 2.0F * n_l * dot(surface.normal, direction);
-    const F base = masked(cosine > 0.0F, stdx::min(cosine, F(1)));
-    F highlight;
-    if (scene_.has_whole_shininess) {
-      highlight = whole_power(base, material.shininess);
-    } else {
-      for (std::size_t i = 0; i != W; ++i) highlight[i] = std::pow(float(base[i]), float(material.shininess[i]));
-    }
-    highlight = masked(lit && cosine > 0.0F, material.specular * highlight);
-    const Triple<F> color = masked(lit, n_l) * material.diffuse + Triple<F>{highlight, highlight, highlight};
-    sum += broadcast<W>(light.color) * color;
+    const Lanes cosine = stdx::min(dot(rays.direction, mirrored), Lanes(1));
+    const LaneMask has_highlight = is_lit && cosine > 0.0F;
+    const Lanes white = masked(has_highlight, highlight(material, masked(has_highlight, cosine)));
+    sum += broadcast(light.color) * (masked(is_lit, n_l) * material.diffuse + Wide{white, white, white});
   }
   return sum;
 }
 
-template <Hands hands, std::size_t W>
-Triple<Lanes<W>> Painter::radiance(Rays<W> rays, LaneMask<W> active, Lanes<W> weight, std::uint32_t bounce) {
-  using F = Lanes<W>;
-  Triple<F> sum;
-  for (;; ++bounce) {
-    const Surface<W> surface = nearest<hands.camera>(rays, active);
-    sum += masked(active && !surface.hit, weight) * broadcast<W>(scene_.background);
-    active = surface.hit;
+/// Radiance at the origins of camera rays: (1 - k) local + k mirrored at each surface, the background at the end.
+template <Hand hand>
+Wide Painter<hand>::radiance_along(Rays rays, LaneMask active) {
+  counts_.primary += count_of(active);
+  const Wide background = broadcast(scene_.background);
+  Wide sum;
+  Lanes weight = 1;
+  for (std::uint32_t bounce = 0;; ++bounce) {
+    const Surface surface = nearest(rays, active);
+    sum += masked(active && !surface.is_hit, weight) * background;
+    active = surface.is_hit;
     if (stdx::none_of(active)) return sum;
-    const Materials<W> material = gather(surface);
-    sum +=
-        masked(active, weight * (1.0F - material.reflection)) * local<hands.shadow>(surface, material, rays.direction);
+
+    const Materials material = materials_of(surface);
+    sum += masked(active, weight * (1.0F - material.reflection)) * local_radiance(surface, material, rays.direction);
     weight *= material.reflection;
     active = active && weight > 0.0F;
     if (stdx::none_of(active)) return sum;
-    if (bounce == scene_.max_bounces) return sum + masked(active, weight) * broadcast<W>(scene_.background);
+    if (bounce == scene_.max_bounces) return sum + masked(active, weight) * background;
 
-    counts.mirror += count_of<W>(active);
-    const F slope = 2.0F * dot(surface.normal, rays.direction);
-    rays = {surface.point, rays.direction - slope * surface.normal, surface.near, kInfinity};
-    if constexpr (W > 1) {
-      // What a mirror scatters goes on alone.
-      if (!hands.is_mirror_in_wave) {
-        for (std::size_t i = 0; i != W; ++i) {
-          if (!active[i]) continue;
-          const auto lane = [i](const Triple<F>& v) { return Triple<Lanes<1>>{v.x[i], v.y[i], v.z[i]}; };
-          const auto more = radiance<Hands{Hand::one_by_one, Hand::one_by_one, true}, 1>(
-              {lane(rays.origin), lane(rays.direction), rays.near[i], kInfinity}, LaneMask<1>(true),
-              Lanes<1>(float(weight[i])), bounce + 1);
-          sum.x[i] += more.x[0];
-          sum.y[i] += more.y[0];
-          sum.z[i] += more.z[0];
-        }
-        return sum;
-      }
-    }
+    const Wide mirrored = rays.direction - (2.0F * dot(surface.normal, rays.direction)) * surface.normal;
+    rays = {surface.point, mirrored, surface.near, kInfinity};
+    counts_.mirror += count_of(active);
   }
 }
 
-/// Blocks of pixels, each one wave, in tiles that stay in the caches.
-template <std::size_t W, Hands hands>
-void paint(Painter& painter, Picture& picture, std::uint32_t width, std::uint32_t height) {
+/// Blocks of 4x2 pixels in tiles that stay in the caches.
+template <Hand hand>
+Picture paint(const Scene& scene, const WideCamera& camera, std::uint32_t width, std::uint32_t height) {
   constexpr std::uint32_t kTile = 16;
-  constexpr std::uint32_t kBlockWidth = W == 1 ? 1 : 4;
-  constexpr std::uint32_t kBlockHeight = W / kBlockWidth;
-  const auto paint_block = [&](std::uint32_t x0, std::uint32_t y0) {
-    Lanes<W> x;
-    Lanes<W> y;
-    for (std::uint32_t i = 0; i != W; ++i) {
-      x[i] = static_cast<float>(x0 + i % kBlockWidth);
-      y[i] = static_cast<float>(y0 + i / kBlockWidth);
-    }
-    const auto active = x < static_cast<float>(width) && y < static_cast<float>(height);
-    painter.counts.primary += count_of<W>(active);
-    const auto color = painter.radiance<hands, W>(painter.camera_rays<W>(x, y), active, 1, 0);
-    for (std::uint32_t i = 0; i != W; ++i) {
-      if (!active[i]) continue;
-      const std::uint64_t row = y0 + i / kBlockWidth;
-      picture.pixels[row * width + x0 + i % kBlockWidth] = {color.x[i], color.y[i], color.z[i]};
+  constexpr std::uint32_t kBlockWidth = 4;
+  constexpr std::uint32_t kBlockHeight = 2;
+  static_assert(kBlockWidth * kBlockHeight == kLanes);
+  const Lanes in_block_x([](auto i) { return static_cast<float>(i % kBlockWidth); });
+  const Lanes in_block_y([](auto i) { return static_cast<float>(i / kBlockWidth); });
+
+  Picture picture;
+  picture.pixels.resize(std::size_t{width} * height);
+  Painter<hand> painter(scene);
+  const auto paint_block = [&](std::uint32_t left, std::uint32_t top) {
+    const Lanes x = static_cast<float>(left) + in_block_x;
+    const Lanes y = static_cast<float>(top) + in_block_y;
+    const LaneMask is_inside = x < static_cast<float>(width) && y < static_cast<float>(height);
+    const Wide color = painter.radiance_along(camera.through(x, y), is_inside);
+    for (std::uint32_t i = 0; i != kLanes; ++i) {
+      if (!is_inside[i]) continue;
+      const std::size_t row = top + i / kBlockWidth;
+      picture.pixels[row * width + left + i % kBlockWidth] = {color.x[i], color.y[i], color.z[i]};
     }
   };
   for (std::uint32_t top = 0; top < height; top += kTile) {
@@ -296,7 +252,8 @@ void paint(Painter& painter, Picture& picture, std::uint32_t width, std::uint32_
       }
     }
   }
-  picture.rays = painter.counts;
+  picture.rays = painter.counts();
+  return picture;
 }
 
 }  // namespace
@@ -306,15 +263,9 @@ Picture draw(const Scene& scene, const render::CameraRays& camera, std::uint32_t
   constexpr unsigned kFlushToZero = 0x8000;
   constexpr unsigned kDenormalsAreZero = 0x0040;
   _mm_setcsr(_mm_getcsr() | kFlushToZero | kDenormalsAreZero);  // as Embree's manual advises
-  Picture picture;
-  picture.pixels.resize(std::size_t{width} * height);
-  Painter painter(scene, camera);
-  if (mode == Mode::single) {
-    paint<1, Hands{Hand::one_by_one, Hand::one_by_one, true}>(painter, picture, width, height);
-  } else {
-    paint<8, Hands{Hand::packet, Hand::packet, false}>(painter, picture, width, height);
-  }
-  return picture;
+  const WideCamera rays(camera);
+  return mode == Mode::single ? paint<Hand::one_by_one>(scene, rays, width, height)
+                              : paint<Hand::packet>(scene, rays, width, height);
 }
 
 }  // namespace tessera::embree

@@ -11,9 +11,10 @@
 // The pixel loop: camera rays, shading, shadows and mirrors around Embree.
 namespace tessera::embree {
 
+/// How rays are handed to Embree; which is faster depends on the scene. Either way eight are shaded at a time.
 enum class Mode : std::uint8_t {
-  single,   ///< every ray by itself
-  packets,  ///< camera rays of 4x2 pixels, and their shadow rays, eight at a time
+  single,   ///< rtcIntersect1, rtcOccluded1
+  packets,  ///< rtcIntersect8, rtcOccluded8 for the rays of 4x2 pixels, mirrored ones and shadows too
 };
 
 struct Picture {

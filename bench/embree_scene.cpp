@@ -11,14 +11,6 @@
 namespace tessera::embree {
 namespace {
 
-Triple<float> to_float(const render::Vec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-Triple<float> to_float(const render::Rgb& c) {
-  return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
-}
-
 void refuse_unknown(const render::SceneData& data) {
   if (data.image.samples != 1) throw std::runtime_error("only one sample a pixel is drawn here");
   if (data.image.shade != render::Shade::phong) throw std::runtime_error("only Phong's highlights are drawn here");
@@ -31,13 +23,13 @@ void throw_on_error(void* /*user*/, RTCError /*code*/, const char* text) {
   throw std::runtime_error(std::string("Embree: ") + text);
 }
 
-FloatPlane to_float(const render::Plane& plane) {
+FloatPlane float_plane(const render::Plane& plane) {
   const render::Vec3 normal = render::normalized(plane.normal);
   return {to_float(normal), static_cast<float>(render::dot(normal, plane.point)),
           static_cast<std::uint32_t>(plane.material)};
 }
 
-FloatMaterial to_float(const render::Material& m, const render::Rgb& ambient_light) {
+FloatMaterial float_material(const render::Material& m, const render::Rgb& ambient_light) {
   return {.ambient = to_float(ambient_light * (m.ambient * m.color)),
           .diffuse = to_float(m.diffuse * m.color),
           .specular = static_cast<float>(m.specular),
@@ -45,7 +37,7 @@ FloatMaterial to_float(const render::Material& m, const render::Rgb& ambient_lig
           .reflection = static_cast<float>(m.reflection)};
 }
 
-FloatLight to_float(const render::Light& light) {
+FloatLight float_light(const render::Light& light) {
   const bool is_point = light.kind == render::LightKind::point;
   return {is_point, to_float(is_point ? light.vector : render::normalized(-light.vector)), to_float(light.color)};
 }
@@ -80,12 +72,12 @@ Scene build_scene(const render::SceneData& data) {
   if (!data.spheres.empty()) add_spheres(scene, data.spheres);
   rtcCommitScene(scene.tree.get());
 
-  for (const render::Plane& plane : data.planes) scene.planes.push_back(to_float(plane));
+  for (const render::Plane& plane : data.planes) scene.planes.push_back(float_plane(plane));
   for (const render::Material& m : data.materials) {
-    scene.materials.push_back(to_float(m, data.environment.ambient));
+    scene.materials.push_back(float_material(m, data.environment.ambient));
     if (std::floor(m.shininess) != m.shininess || m.shininess > 1e6) scene.has_whole_shininess = false;
   }
-  for (const render::Light& light : data.lights) scene.lights.push_back(to_float(light));
+  for (const render::Light& light : data.lights) scene.lights.push_back(float_light(light));
   scene.background = to_float(data.environment.background);
   scene.max_bounces = data.image.max_bounces;
   return scene;

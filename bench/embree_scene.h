@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "embree_lanes.h"
+#include "embree_triple.h"
 #include "render/scene_data.h"
 
 // A scene as Embree takes it: single precision, the spheres in its tree, the planes beside it.

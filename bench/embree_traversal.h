@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 
-#include "embree_scene.h"
+#include "embree_lanes.h"
 
-// Waves of W rays through Embree's tree: as one packet, or one by one.
+// Waves of eight rays through Embree's tree: as one packet, or one by one.
 namespace tessera::embree {
 
 /// How the rays of a wave are handed to Embree.
@@ -14,27 +18,21 @@ enum class Hand : std::uint8_t { one_by_one, packet };
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-template <std::size_t W>
 struct Rays {
-  Triple<Lanes<W>> origin;
-  Triple<Lanes<W>> direction;  ///< unit
-  Lanes<W> near;               ///< what is nearer is the surface that the ray leaves
-  Lanes<W> far;                ///< what is farther does not count
+  Wide origin;
+  Wide direction;  ///< unit
+  Lanes near;      ///< what is nearer is the surface that the ray leaves
+  Lanes far;       ///< what is farther does not count
 };
 
-/// What Embree says about a wave of rays; the normal is not unit.
-template <std::size_t W>
+/// What a wave of rays met in the tree.
 struct TreeHits {
-  alignas(64) float distance[W];
-  alignas(64) float normal_x[W];
-  alignas(64) float normal_y[W];
-  alignas(64) float normal_z[W];
-  alignas(64) std::uint32_t sphere[W];  ///< RTC_INVALID_GEOMETRY_ID on a miss
+  std::array<std::uint32_t, kLanes> sphere;  ///< RTC_INVALID_GEOMETRY_ID on a miss
+  Wide normal;                               ///< of any length; anything on a miss
 };
 
 /// Embree's ray of one lane.
-template <std::size_t W>
-RTCRay single_ray(const Rays<W>& rays, std::size_t lane) {
+inline RTCRay single_ray(const Rays& rays, std::size_t lane) {
   RTCRay ray;
   ray.org_x = rays.origin.x[lane];
   ray.org_y = rays.origin.y[lane];
@@ -51,7 +49,7 @@ RTCRay single_ray(const Rays<W>& rays, std::size_t lane) {
   return ray;
 }
 
-inline void fill(RTCRay8& ray, const Rays<8>& rays) {
+inline void fill(RTCRay8& ray, const Rays& rays) {
   constexpr stdx::vector_aligned_tag kAligned;
   rays.origin.x.copy_to(ray.org_x, kAligned);
   rays.origin.y.copy_to(ray.org_y, kAligned);
@@ -61,73 +59,67 @@ inline void fill(RTCRay8& ray, const Rays<8>& rays) {
   rays.direction.y.copy_to(ray.dir_y, kAligned);
   rays.direction.z.copy_to(ray.dir_z, kAligned);
   rays.far.copy_to(ray.tfar, kAligned);
-  for (int i = 0; i != 8; ++i) {
-    ray.time[i] = 0;
-    ray.mask[i] = ~0U;
-    ray.id[i] = 0;
-    ray.flags[i] = 0;
-  }
+  std::fill_n(ray.time, kLanes, 0.0F);
+  std::fill_n(ray.mask, kLanes, ~0U);
+  std::fill_n(ray.id, kLanes, 0U);
+  std::fill_n(ray.flags, kLanes, 0U);
 }
 
-/// The nearest sphere of each active lane. Lanes that are not active hold anything.
-template <Hand hand, std::size_t W>
-void intersect(RTCScene tree, RTCIntersectContext& context, const Rays<W>& rays, const LaneMask<W>& active,
-               TreeHits<W>& hits) {
+inline std::array<int, kLanes> valid_lanes(const LaneMask& active) {
+  std::array<int, kLanes> valid{};
+  for (std::size_t i = 0; i != kLanes; ++i) valid[i] = active[i] ? -1 : 0;
+  return valid;
+}
+
+/// The nearest sphere of each active lane; what the others hold means nothing.
+template <Hand hand>
+TreeHits intersect(RTCScene tree, RTCIntersectContext& context, const Rays& rays, const LaneMask& active) {
+  TreeHits hits;
   if constexpr (hand == Hand::packet) {
+    alignas(32) const std::array<int, kLanes> valid = valid_lanes(active);
     RTCRayHit8 query;
-    alignas(32) int valid[8];
     fill(query.ray, rays);
-    for (std::size_t i = 0; i != 8; ++i) {
-      valid[i] = active[i] ? -1 : 0;
-      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      query.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    rtcIntersect8(valid, tree, &context, &query);
-    for (std::size_t i = 0; i != 8; ++i) {
-      hits.distance[i] = query.ray.tfar[i];
-      hits.normal_x[i] = query.hit.Ng_x[i];
-      hits.normal_y[i] = query.hit.Ng_y[i];
-      hits.normal_z[i] = query.hit.Ng_z[i];
-      hits.sphere[i] = query.hit.primID[i];
-    }
+    std::fill_n(query.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(query.hit.primID, kLanes, RTC_INVALID_GEOMETRY_ID);
+    rtcIntersect8(valid.data(), tree, &context, &query);
+    std::copy_n(query.hit.primID, kLanes, hits.sphere.begin());
+    constexpr stdx::vector_aligned_tag kAligned;
+    hits.normal = {Lanes(query.hit.Ng_x, kAligned), Lanes(query.hit.Ng_y, kAligned), Lanes(query.hit.Ng_z, kAligned)};
   } else {
-    for (std::size_t i = 0; i != W; ++i) {
+    hits.sphere.fill(RTC_INVALID_GEOMETRY_ID);
+    for (std::size_t i = 0; i != kLanes; ++i) {
       if (!active[i]) continue;
       RTCRayHit query;
       query.ray = single_ray(rays, i);
       query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       query.hit.primID = RTC_INVALID_GEOMETRY_ID;
-      query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
       rtcIntersect1(tree, &context, &query);
-      hits.distance[i] = query.ray.tfar;
-      hits.normal_x[i] = query.hit.Ng_x;
-      hits.normal_y[i] = query.hit.Ng_y;
-      hits.normal_z[i] = query.hit.Ng_z;
       hits.sphere[i] = query.hit.primID;
+      set(hits.normal, i, {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
     }
   }
+  return hits;
 }
 
 /// Which of the active lanes meet a sphere.
-template <Hand hand, std::size_t W>
-LaneMask<W> occluded(RTCScene tree, RTCIntersectContext& context, const Rays<W>& rays, const LaneMask<W>& active) {
-  LaneMask<W> blocked(false);
+template <Hand hand>
+LaneMask is_occluded(RTCScene tree, RTCIntersectContext& context, const Rays& rays, const LaneMask& active) {
   if constexpr (hand == Hand::packet) {
+    alignas(32) const std::array<int, kLanes> valid = valid_lanes(active);
     RTCRay8 query;
-    alignas(32) int valid[8];
     fill(query, rays);
-    for (std::size_t i = 0; i != 8; ++i) valid[i] = active[i] ? -1 : 0;
-    rtcOccluded8(valid, tree, &context, &query);
-    blocked = Lanes<8>(query.tfar, stdx::vector_aligned) < 0.0F && active;
+    rtcOccluded8(valid.data(), tree, &context, &query);
+    return active && Lanes(query.tfar, stdx::vector_aligned) < 0.0F;
   } else {
-    for (std::size_t i = 0; i != W; ++i) {
+    LaneMask is_blocked(false);
+    for (std::size_t i = 0; i != kLanes; ++i) {
       if (!active[i]) continue;
       RTCRay query = single_ray(rays, i);
       rtcOccluded1(tree, &context, &query);
-      blocked[i] = query.tfar < 0;
+      is_blocked[i] = query.tfar < 0;
     }
+    return is_blocked;
   }
-  return blocked;
 }
 
 }  // namespace tessera::embree
