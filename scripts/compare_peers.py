@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures Tessera side by side with Embree, Tachyon and POV-Ray: same scenes, same rays, one core each.
 
-Writes the scenes of scripts/peer_scenes.py, converts them for every program, and renders each with all programs in turn,
-several rounds over, another one going first each time, all on the same core. Then checks that all pictures agree and
-exits with 1 where they do not. A peer that is not installed is left out.
+Writes the scenes of scripts/peer_scenes.py, converts them for every program, and renders each with all programs in
+turn, several rounds over, another one going first each time, all on the same core. Then checks that all pictures agree
+and exits with 1 where they do not. A peer that is not installed is left out.
 
   render     median of the seconds that the program itself reports for its pixels; no reading, building or writing
   spread     (slowest - fastest) / median
@@ -141,7 +141,8 @@ def names_in(text, known, parser, option):
 def parse(words):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tessera", type=pathlib.Path, metavar="PATH", help="default: built in build/bench")
-    parser.add_argument("--embree", type=pathlib.Path, metavar="PATH", help="embree_render; default: built in build/bench")
+    parser.add_argument("--embree", type=pathlib.Path, metavar="PATH",
+                        help="embree_render; default: built in build/bench")
     parser.add_argument("--scenes", default=",".join(peer_scenes.SCENES), metavar="NAME,...",
                         help="default: all of scripts/peer_scenes.py")
     parser.add_argument("--peers", default=",".join(PEERS), metavar="NAME,...", help="[%(default)s]")

@@ -81,8 +81,8 @@ def table(summaries):
         is_mode = " " in s.program
         is_best = best[s.scene, s.program.split()[0]] is s
         lines.append(line([
-            s.program, f"{s.render_s:.3f} s", f"{s.spread:.1%}" if s.runs > 1 else "", str(s.runs), f"{s.build_s:.3f} s",
-            str(s.rays or ""), f"{s.rmse:.4f}" if s.program != OURS else "",
+            s.program, f"{s.render_s:.3f} s", f"{s.spread:.1%}" if s.runs > 1 else "", str(s.runs),
+            f"{s.build_s:.3f} s", str(s.rays or ""), f"{s.rmse:.4f}" if s.program != OURS else "",
             f"{s.ratio:.2f}{'*' if is_mode and is_best else ' '}" if s.program != OURS else ""]))
     return "\n".join(lines)
 
