@@ -174,7 +174,9 @@ class Builder {
 
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back(empty_node());
-    for (std::size_t i = 0; i != count; ++i) {
+    place_by_octant(parts, range.box);
+    for (std::size_t i = 0; i != kTreeWidth; ++i) {
+      if (parts[i].count() == 0) continue;
       const std::uint32_t child = parts[i].count() <= kLeafSize ? add_leaf(parts[i]) : build_node(parts[i], depth + 1);
       nodes_[index].child[i] = child;
       for (std::size_t axis = 0; axis != 3; ++axis) {
@@ -183,6 +185,24 @@ class Builder {
       }
     }
     return index;
+  }
+
+  /// Puts parts on the high side of an axis into lanes with the bit of that axis, as well as that goes: x has bit 4,
+  /// y bit 2, z bit 1. So a ray that goes through the lanes in order of lane ^ octant meets near children first.
+  /// source:  Ylitie, Karras, Laine, Efficient incoherent ray traversal on GPUs through compressed wide BVHs (2017)
+  static void place_by_octant(std::array<Range, kTreeWidth>& parts, const Bounds& box) noexcept {
+    const Float4 middle = box.lo + box.hi;
+    const auto place = [&](const Range& part, int axis) {
+      return part.count() == 0 ? middle[axis] : part.box.lo[axis] + part.box.hi[axis];
+    };
+    for (std::size_t size = kTreeWidth, axis = 0; size > 1; size /= 2, ++axis) {
+      for (std::size_t first = 0; first != kTreeWidth; first += size) {
+        const auto begin = parts.begin() + static_cast<std::ptrdiff_t>(first);
+        std::sort(begin, begin + static_cast<std::ptrdiff_t>(size), [&](const Range& a, const Range& b) {
+          return place(a, static_cast<int>(axis)) < place(b, static_cast<int>(axis));
+        });
+      }
+    }
   }
 
   /// The part with the largest surface, of equals that with the most items; at great depth that with the most items.

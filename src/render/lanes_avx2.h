@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 
 #include "render/target_avx2.h"
+#include "render/vec3.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -22,6 +22,7 @@ struct Float8 {
 
   static Float8 load(const float* p) noexcept { return {_mm256_load_ps(p)}; }
   static Float8 all(float x) noexcept { return {_mm256_set1_ps(x)}; }
+  void store(float* p) const noexcept { _mm256_storeu_ps(p, v); }
 };
 
 inline Float8 operator+(Float8 a, Float8 b) noexcept {
@@ -55,57 +56,78 @@ struct Int8 {
   __m256i v;
 
   static Int8 load(const void* p) noexcept { return {_mm256_load_si256(static_cast<const __m256i*>(p))}; }
+  static Int8 all(std::uint32_t x) noexcept { return {_mm256_set1_epi32(static_cast<int>(x))}; }
   void store(void* p) const noexcept { _mm256_storeu_si256(static_cast<__m256i*>(p), v); }
-  Int8 picked(Int8 lanes) const noexcept { return {_mm256_permutevar8x32_epi32(v, lanes.v)}; }
 };
 
+inline Int8 picked(Int8 a, Int8 lanes) noexcept {
+  return {_mm256_permutevar8x32_epi32(a.v, lanes.v)};
+}
+inline Float8 picked(Float8 a, Int8 lanes) noexcept {
+  return {_mm256_permutevar8x32_ps(a.v, lanes.v)};
+}
 inline LaneMask lanes_equal(Int8 a, std::uint32_t b) noexcept {
   const __m256i equal = _mm256_cmpeq_epi32(a.v, _mm256_set1_epi32(static_cast<int>(b)));
   return static_cast<LaneMask>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
 }
 
-/// The lanes of a mask one after the other, by mask.
-inline constexpr auto kLanesOfMask = [] {
-  std::array<std::array<std::uint8_t, 8>, 256> table{};
-  for (std::size_t mask = 0; mask != table.size(); ++mask) {
-    std::size_t size = 0;
-    for (std::uint8_t lane = 0; lane != 8; ++lane) {
-      if ((mask >> lane & 1) != 0) table[mask][size++] = lane;
+/// Eight small numbers in one word, the first in its lowest byte.
+using PackedLanes = std::uint64_t;
+
+/// By octant and mask: the numbers j for which the mask has lane j ^ octant, ascending.
+inline constexpr auto kLanesInOrder = [] {
+  std::array<std::array<PackedLanes, 256>, 8> table{};
+  for (std::size_t octant = 0; octant != 8; ++octant) {
+    for (std::size_t mask = 0; mask != 256; ++mask) {
+      int size = 0;
+      for (std::size_t j = 0; j != 8; ++j) {
+        const std::size_t lane = j ^ octant;
+        if ((mask >> lane & 1) != 0) table[octant][mask] |= static_cast<PackedLanes>(lane) << (8 * size++);
+      }
     }
   }
   return table;
 }();
 
-/// The lanes of a mask, ascending.
-inline Int8 lanes_of(LaneMask mask) noexcept {
-  std::int64_t bytes = 0;
-  std::memcpy(&bytes, kLanesOfMask[mask].data(), sizeof bytes);
-  return {_mm256_cvtepu8_epi32(_mm_cvtsi64_si128(bytes))};
+/// The lanes of a mask in ascending order of lane ^ octant; zeros behind them.
+inline Int8 lanes_in_order(LaneMask mask, unsigned octant) noexcept {
+  const auto packed = static_cast<std::int64_t>(kLanesInOrder[octant][mask]);
+  return {_mm256_cvtepu8_epi32(_mm_cvtsi64_si128(packed))};
 }
 
-/// One step of a sorting network: of each pair of lanes the lower one takes the larger number.
-template <int LowerTakesSmaller>
-__m256i exchanged(__m256i a, __m256i partner) noexcept {
-  return _mm256_blend_epi32(_mm256_max_epi32(a, partner), _mm256_min_epi32(a, partner), LowerTakesSmaller);
-}
+/// x, y, z and a lane to spare, in double.
+struct Double4 {
+  __m256d v;
 
-/// The lanes of a mask by their numbers >= 0, the largest first. The numbers' last three bits are lost: they hold the
-/// lane.
-/// source:  Batcher, Sorting networks and their applications (1968)
-inline Int8 lanes_descending(Float8 numbers, LaneMask mask) noexcept {
-  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-  // Numbers >= 0 are in the order of their bits; lanes that are out are below them all.
-  __m256i key = _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(numbers.v)), lane);
-  const __m256i in = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask)), bit), bit);
-  key = _mm256_or_si256(key, _mm256_andnot_si256(in, _mm256_set1_epi32(-1)));
-  key = exchanged<0xAA>(key, _mm256_shuffle_epi32(key, 0xB1));
-  key = exchanged<0xCC>(key, _mm256_shuffle_epi32(key, 0x1B));
-  key = exchanged<0xAA>(key, _mm256_shuffle_epi32(key, 0xB1));
-  key = exchanged<0xF0>(key, _mm256_permutevar8x32_epi32(key, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)));
-  key = exchanged<0xCC>(key, _mm256_shuffle_epi32(key, 0x4E));
-  key = exchanged<0xAA>(key, _mm256_shuffle_epi32(key, 0xB1));
-  return {key};
+  static Double4 all(double x) noexcept { return {_mm256_set1_pd(x)}; }
+  static Double4 of(const Vec3& p) noexcept { return {_mm256_setr_pd(p.x, p.y, p.z, 1)}; }
+  Double4 size() const noexcept { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), v)}; }
+  /// Rounds to nearest and writes four.
+  void store(float* p) const noexcept { _mm_storeu_ps(p, _mm256_cvtpd_ps(v)); }
+};
+
+inline Double4 operator+(Double4 a, Double4 b) noexcept {
+  return {_mm256_add_pd(a.v, b.v)};
+}
+inline Double4 operator-(Double4 a, Double4 b) noexcept {
+  return {_mm256_sub_pd(a.v, b.v)};
+}
+inline Double4 operator*(Double4 a, Double4 b) noexcept {
+  return {_mm256_mul_pd(a.v, b.v)};
+}
+inline Double4 operator/(Double4 a, Double4 b) noexcept {
+  return {_mm256_div_pd(a.v, b.v)};
+}
+inline Double4 clamp(Double4 a, double farthest) noexcept {
+  return {_mm256_max_pd(_mm256_set1_pd(-farthest), _mm256_min_pd(a.v, _mm256_set1_pd(farthest)))};
+}
+/// a where `chooser` is negative, -0 too, else b.
+inline Double4 where_negative(Double4 chooser, Double4 a, Double4 b) noexcept {
+  return {_mm256_blendv_pd(b.v, a.v, chooser.v)};
+}
+/// Bits of the lanes that are negative, -0 too.
+inline LaneMask negative_lanes(Double4 a) noexcept {
+  return static_cast<LaneMask>(_mm256_movemask_pd(a.v));
 }
 
 }  // namespace tessera::render::avx2

@@ -30,11 +30,15 @@ struct Ray {
 };
 
 /// Where a ray meets a surface first.
-struct Hit {
+struct SurfacePoint {
   SurfaceId surface = SurfaceId::none;
-  double t = 0;
   Vec3 point;
   Vec3 normal;  ///< unit; a sphere's points outward, a plane's as the scene gives it
+};
+
+/// The same, and how far that is.
+struct Hit : SurfacePoint {
+  double t = 0;
 };
 
 }  // namespace tessera::render

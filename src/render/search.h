@@ -20,6 +20,9 @@ namespace tessera::render {
 /// requires: is_squarable(ray.direction); scene, ray and region outlive the search
 class NearestSearch {
  public:
+  /// Whether latest() comes nearer with what is found.
+  static constexpr bool kCanShorten = true;
+
   NearestSearch(const Scene& scene, const Ray& ray, const Region& region) noexcept;
 
   const Ray& ray() const noexcept { return *ray_; }
@@ -30,8 +33,11 @@ class NearestSearch {
   /// Returns whether the search is at its end, which it never is.
   bool offer(SurfaceId sphere) noexcept;
 
-  /// The first surface of all that were offered.
+  /// The first surface of all that were offered, and how far it is.
   std::optional<Hit> finish() noexcept;
+
+  /// The same but for how far it is, which costs less.
+  std::optional<SurfacePoint> finish_point() noexcept;
 
  private:
   void look_at_walls() noexcept;
@@ -47,7 +53,7 @@ class NearestSearch {
   std::optional<Hit> hit_of_favourite() const noexcept;
   std::optional<Hit> entry_hit(SurfaceId id) const noexcept;
   Hit plane_hit(SurfaceId id, double t) const noexcept;
-  Hit sphere_hit(SurfaceId id, double t, const Vec3& normal) const noexcept;
+  SurfacePoint sphere_point(SurfaceId id, const Vec3& normal) const noexcept;
   Vec3 exit_normal(SurfaceId id) const noexcept;
 
   const Scene* scene_;
@@ -68,6 +74,8 @@ class NearestSearch {
 /// requires: is_squarable(to_light.direction); scene, ray and region outlive the search
 class OcclusionSearch {
  public:
+  static constexpr bool kCanShorten = false;
+
   OcclusionSearch(const Scene& scene, const Ray& to_light, double end, std::size_t light, const Region& region) noexcept
       : scene_(&scene),
         ray_(&to_light),
@@ -202,7 +210,7 @@ inline std::optional<Hit> NearestSearch::finish() noexcept {
       return entry_hit(best_.surface);
     case Meeting::exit:
     case Meeting::own_exit:
-      return sphere_hit(best_.surface, best_.t.value, exit_normal(best_.surface));
+      return Hit{sphere_point(best_.surface, exit_normal(best_.surface)), best_.t.value};
     case Meeting::plane:
       return plane_hit(best_.surface, best_.t.value);
   }
@@ -218,17 +226,25 @@ inline std::optional<Hit> NearestSearch::hit_of_favourite() const noexcept {
 inline std::optional<Hit> NearestSearch::entry_hit(SurfaceId id) const noexcept {
   const Sphere& sphere = scene_->sphere(id);
   const auto crossing = entry_into(*ray_, norm_, sphere.center, sphere.radius);
-  if (!crossing || scene_->are_coincident(id, ray_->from)) return std::nullopt;
-  return sphere_hit(id, crossing->t.value, normal_at(*crossing, ray_->direction));
+  if (!crossing) return std::nullopt;
+  return Hit{sphere_point(id, normal_at(*crossing, ray_->direction)), crossing->t.value};
+}
+
+inline std::optional<SurfacePoint> NearestSearch::finish_point() noexcept {
+  if (favourite_ != SurfaceId::none && best_.surface == SurfaceId::none && scene_->is_sphere(favourite_)) {
+    const Sphere& sphere = scene_->sphere(favourite_);
+    return sphere_point(favourite_, sure_entry_normal(*ray_, norm_, sphere.center, sphere.radius));
+  }
+  return finish();
 }
 
 inline Hit NearestSearch::plane_hit(SurfaceId id, double t) const noexcept {
-  return {id, t, ray_->origin + t * ray_->direction, scene_->unit_normal(id)};
+  return {{id, ray_->origin + t * ray_->direction, scene_->unit_normal(id)}, t};
 }
 
-inline Hit NearestSearch::sphere_hit(SurfaceId id, double t, const Vec3& normal) const noexcept {
+inline SurfacePoint NearestSearch::sphere_point(SurfaceId id, const Vec3& normal) const noexcept {
   const Sphere& sphere = scene_->sphere(id);
-  return {id, t, sphere.center + sphere.radius * normal, normal};
+  return {id, sphere.center + sphere.radius * normal, normal};
 }
 
 inline Vec3 NearestSearch::exit_normal(SurfaceId id) const noexcept {

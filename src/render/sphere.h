@@ -109,16 +109,17 @@ class FirstLook {
   double excess_;  ///< p^2 - r^2
 };
 
-/// How a line passes a sphere; both roots and both normals follow from it.
-struct Passage {
-  ExactDifference f;     ///< C - O
-  Vec3 w;                ///< f x d
-  Bounded discriminant;  ///< (R - l)(R + l): < 0 where the line misses, 0 where it touches
-  Bounded b;             ///< f.d
+/// How far a line passes from a sphere's centre, times |d|.
+struct Offset {
+  ExactDifference f;    ///< C - O
+  Vec3 w;               ///< f x d
+  double l;             ///< |w|
+  double r;             ///< the radius times |d|
+  double discriminant;  ///< (r - l)(r + l): < 0 where the line misses, 0 where it touches
 };
 
-/// error:   w is off by 4u l + 16u^2 |f||d|, so l by 7u l and twice the rest, R by 4u R; |f||d| <= |b| + l
-inline Passage passage_of(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
+/// error:   w is off by 4u l + 16u^2 |f||d|, so l by 7u l and twice the rest, r by 4u r
+inline Offset offset_of(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
   // Take the centre relative to the origin exactly.
   const ExactDifference f = exact_difference(center, ray.origin);
   const Vec3 w = exact_cross(f.hi, ray.direction) + cross(f.lo, ray.direction);
@@ -126,8 +127,20 @@ inline Passage passage_of(const Ray& ray, const DirectionNorm& norm, const Vec3&
   // Compare the distance of the line with the radius, both times |d|.
   const double l = length(w);
   const double r = radius * norm.length;
-  const double discriminant = (r - l) * (r + l);
+  return {f, w, l, r, (r - l) * (r + l)};
+}
 
+/// How a line passes a sphere; both roots and both normals follow from it.
+struct Passage {
+  ExactDifference f;     ///< C - O
+  Vec3 w;                ///< f x d
+  Bounded discriminant;  ///< < 0 where the line misses, 0 where it touches
+  Bounded b;             ///< f.d
+};
+
+/// error:   of the discriminant, from those of l and r with |f||d| <= |b| + l
+inline Passage passage_of(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
+  const auto [f, w, l, r, discriminant] = offset_of(ray, norm, center, radius);
   const Bounded b = bounded_dot(f, ray.direction);
   const double off = 10 * kUnitRoundoff * (r + l) + 32 * kUnitRoundoff * kUnitRoundoff * std::abs(b.value);
   return {f, w, {discriminant, 2 * off * (r + l + off)}, b};
@@ -205,9 +218,18 @@ inline Crossing exit_from(const Ray& ray, const DirectionNorm& norm, const Vec3&
 
 /// The outward unit normal at a crossing, from the line's perpendicular: no large distance enters it.
 /// error:   about 7e-16 for any distance of the origin
+inline Vec3 normal_at(Root root, double s, const Vec3& w, const Vec3& direction) noexcept {
+  const double along = root == Root::near ? -s : s;
+  return normalized(along * direction - cross(direction, w));
+}
 inline Vec3 normal_at(const Crossing& crossing, const Vec3& direction) noexcept {
-  const double along = crossing.root == Root::near ? -crossing.s : crossing.s;
-  return normalized(along * direction - cross(direction, crossing.w));
+  return normal_at(crossing.root, crossing.s, crossing.w, direction);
+}
+
+/// The normal where a ray enters a sphere that it surely does: that of entry_into's crossing, without its distance.
+inline Vec3 sure_entry_normal(const Ray& ray, const DirectionNorm& norm, const Vec3& center, double radius) noexcept {
+  const Offset offset = offset_of(ray, norm, center, radius);
+  return normal_at(Root::near, std::sqrt(std::max(offset.discriminant, 0.0)), offset.w, ray.direction);
 }
 
 /// A ray that leaves a sphere's inner side crosses it again at t = -2 r (N.d) / (d.d), N outward at the origin.

@@ -17,9 +17,9 @@ struct RayInRegion {
   const Region* region;
 };
 
-/// nearest_hit of every ray.
-/// shapes:  hits.size() = rays.size()
-void nearest_hits(const Scene& scene, std::span<const RayInRegion> rays, std::span<std::optional<Hit>> hits);
+/// What nearest_hit finds for every ray, without the distance.
+/// shapes:  points.size() = rays.size()
+void nearest_hits(const Scene& scene, std::span<const RayInRegion> rays, std::span<std::optional<SurfacePoint>> points);
 
 /// is_occluded of every ray, all of them to the same light.
 /// shapes:  occluded.size() = rays.size(); 1 where occluded, else 0
@@ -28,7 +28,7 @@ void occlusions(const Scene& scene, std::span<const RayInRegion> to_light, std::
 
 namespace avx2 {
 
-void nearest_hits(const Scene& scene, std::span<const RayInRegion> rays, std::span<std::optional<Hit>> hits);
+void nearest_hits(const Scene& scene, std::span<const RayInRegion> rays, std::span<std::optional<SurfacePoint>> points);
 void occlusions(const Scene& scene, std::span<const RayInRegion> to_light, std::size_t light,
                 std::span<std::uint8_t> occluded);
 

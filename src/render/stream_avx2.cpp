@@ -19,98 +19,66 @@ constexpr std::size_t kInFlight = 32;
 /// A ray on its way through the tree.
 template <class Search>
 struct Traversal {
-  TreeRay ray;
-  float latest;        ///< of the search, in the tree's units
-  SurfaceId from;      ///< never offered
-  std::uint32_t size;  ///< of the stack
-  std::size_t query;
   Search search;
+  TreeRay ray;
+  float latest;         ///< of the search, in the tree's units
+  SurfaceId from;       ///< never offered
+  std::uint32_t size;   ///< of the stack
+  unsigned far_octant;  ///< the lane where a node's farthest child should be; see place_by_octant in bvh_build.cpp
+  std::size_t query;
   // Children put aside, where they are entered and which they are. Lanes beyond the last are written too.
-  std::uint32_t entry[Bvh::kStackSize + kTreeWidth];
-  std::uint32_t child[Bvh::kStackSize + kTreeWidth];
+  float entry[1 + Bvh::kStackSize + kTreeWidth];
+  std::uint32_t child[1 + Bvh::kStackSize + kTreeWidth];
 
-  Traversal(const Bvh& bvh, const Search& asked, std::size_t number) noexcept
-      : ray(bvh.space(), asked.ray(), asked.inverse_length()),
-        latest(ray.t_of(asked.latest())),
-        from(asked.ray().from),
-        size(1),
-        query(number),
-        search(asked) {
-    entry[0] = 0;
-    child[0] = 0;
+  /// Under everything on the stack; never superfluous.
+  static constexpr std::uint32_t kEnd = ~std::uint32_t{0};
+
+  Traversal(const TreeSpace& space, std::size_t number, const Search& asked) noexcept : search(asked), query(number) {
+    set_tree_ray(space);
+    latest = ray.t_of(search.latest());
+    from = search.ray().from;
+    size = 2;
+    entry[0] = -std::numeric_limits<float>::infinity();
+    child[0] = kEnd;
+    entry[1] = 0;
+    child[1] = 0;
   }
 
-  /// Drops what lies behind the nearest surface found since it was put aside.
-  bool has_next() noexcept {
-    const float end = latest * TreeRay::kSlack;
-    while (size > 0 && !(std::bit_cast<float>(entry[size - 1]) <= end)) --size;
-    return size > 0;
+  /// As the constructor of TreeRay, on all axes at once.
+  void set_tree_ray(const TreeSpace& space) noexcept {
+    const TreeRay::Start start = TreeRay::start_of(space, search.ray(), search.inverse_length());
+    const Double4 x = clamp(Double4::of(start.origin), TreeRay::kFarthest);
+    const Double4 d = Double4::of(start.unit);
+    const Double4 off = Double4::all(start.off);
+    const auto rounding = [](Double4 p) {
+      return p.size() * Double4::all(TreeSpace::kRounding) + Double4::all(TreeSpace::kFloor);
+    };
+    const Double4 high = clamp(x + off, TreeRay::kFarthest);
+    const Double4 low = clamp(x - off, TreeRay::kFarthest);
+    const Double4 up = high + rounding(high);
+    const Double4 down = low - rounding(low);
+    where_negative(d, down, up).store(ray.near_origin);
+    where_negative(d, up, down).store(ray.far_origin);
+    clamp(Double4::all(1) / d, TreeRay::kLargestInverse).store(ray.inverse);
+    x.store(ray.origin);
+    d.store(ray.direction);
+    const LaneMask negative = negative_lanes(d);
+    for (unsigned axis = 0; axis != 3; ++axis) ray.near_side[axis] = negative >> axis & 1;
+    far_octant = 7 ^ (ray.near_side[0] << 2 | ray.near_side[1] << 1 | ray.near_side[2]);
+    ray.set_scalars(space, start, search.inverse_length());
   }
-};
 
-/// Traces rays through a tree, many at a time. Each step of a ray is a handful of vector instructions without a
-/// branch; steps of different rays are independent of each other, so the processor overlaps them.
-template <class Search>
-class Stream {
- public:
-  explicit Stream(const Bvh& bvh) noexcept : nodes_(bvh.nodes().data()), leaves_(bvh.leaves().data()), bvh_(bvh) {}
-
-  /// requires: !is_full()
-  void add(const Search& search, std::size_t query) noexcept {
-    const std::size_t slot = free_ == 0 ? size_ : free_slots_[--free_];
-    active_[size_++] = static_cast<std::uint8_t>(slot);
-    new (traversal(slot)) Traversal<Search>(bvh_, search, query);
-  }
-  bool is_full() const noexcept { return size_ == kInFlight; }
-  bool is_empty() const noexcept { return size_ == 0; }
-
-  /// Takes every ray one step on; calls done(query, search) for those that are at their end.
-  template <class Done>
-  void step(Done& done) noexcept {
-    std::size_t nodes = 0;
-    std::size_t leaves = 0;
-    for (std::size_t i = 0; i < size_;) {
-      const std::uint8_t slot = active_[i];
-      Traversal<Search>& at = *traversal(slot);
-      if (!at.has_next()) {
-        done(at.query, at.search);
-        free_slots_[free_++] = slot;
-        active_[i] = active_[--size_];
-        continue;
-      }
-      const Step next{&at, at.child[--at.size]};
-      const bool is_leaf = TreeChild::is_leaf(next.child);
-      node_steps_[nodes] = next;
-      leaf_steps_[leaves] = next;
-      nodes += !is_leaf;
-      leaves += is_leaf;
-      ++i;
+  std::uint32_t next_child() noexcept {
+    // Drop what lies behind the nearest surface found since it was put aside.
+    if constexpr (Search::kCanShorten) {
+      const float end = latest * TreeRay::kSlack;
+      while (entry[size - 1] > end) --size;
     }
-    for (std::size_t i = 0; i != nodes; ++i) enter_node(*node_steps_[i].ray, nodes_[node_steps_[i].child]);
-    std::size_t offers = 0;
-    for (std::size_t i = 0; i != leaves; ++i) {
-      offers = look_at_leaf(*leaf_steps_[i].ray, leaves_[TreeChild::index(leaf_steps_[i].child)], offers);
-    }
-    for (std::size_t i = 0; i != offers; ++i) offer(*offers_[i].ray, offers_[i].sphere);
-  }
-
- private:
-  struct Step {
-    Traversal<Search>* ray;
-    std::uint32_t child;
-  };
-  struct Offer {
-    Traversal<Search>* ray;
-    SurfaceId sphere;
-  };
-
-  Traversal<Search>* traversal(std::size_t slot) noexcept {
-    return std::launder(reinterpret_cast<Traversal<Search>*>(storage_ + slot * sizeof(Traversal<Search>)));
+    return child[--size];
   }
 
   /// As meets_child of bvh.h, for all children.
-  static void enter_node(Traversal<Search>& at, const TreeNode& node) noexcept {
-    const TreeRay& ray = at.ray;
+  void enter(const TreeNode& node) noexcept {
     const auto near_at = [&](int axis) {
       const Float8 side = Float8::load(node.bounds[axis][ray.near_side[axis]]);
       return (side - Float8::all(ray.near_origin[axis])) * Float8::all(ray.inverse[axis]);
@@ -120,18 +88,17 @@ class Stream {
       return (side - Float8::all(ray.far_origin[axis])) * Float8::all(ray.inverse[axis]);
     };
     const Float8 enter = max(max(near_at(0), near_at(1)), max(near_at(2), Float8::all(0)));
-    const Float8 leave = min(min(far_at(0), far_at(1)), min(far_at(2), Float8::all(at.latest)));
+    const Float8 leave = min(min(far_at(0), far_at(1)), min(far_at(2), Float8::all(latest)));
     const LaneMask met = enter <= leave * Float8::all(TreeRay::kSlack);
 
-    const Int8 lanes = lanes_descending(enter, met);
-    lanes.store(at.entry + at.size);
-    Int8::load(node.child).picked(lanes).store(at.child + at.size);
-    at.size += static_cast<std::uint32_t>(std::popcount(met));
+    const Int8 lanes = lanes_in_order(met, far_octant);
+    picked(enter, lanes).store(entry + size);
+    picked(Int8::load(node.child), lanes).store(child + size);
+    size += static_cast<std::uint32_t>(std::popcount(met));
   }
 
   /// As may_meet of bvh.h, for all spheres.
-  std::size_t look_at_leaf(Traversal<Search>& at, const TreeLeaf& leaf, std::size_t offers) noexcept {
-    const TreeRay& ray = at.ray;
+  LaneMask may_meet(const TreeLeaf& leaf) const noexcept {
     const Float8 fx = Float8::load(leaf.center[0]) - Float8::all(ray.origin[0]);
     const Float8 fy = Float8::load(leaf.center[1]) - Float8::all(ray.origin[1]);
     const Float8 fz = Float8::load(leaf.center[2]) - Float8::all(ray.origin[2]);
@@ -144,79 +111,192 @@ class Stream {
     const Float8 pz = fused_minus(foot, dz, fz);
     const Float8 square = fused(pz, pz, fused(py, py, px * px));
     const Float8 reach = Float8::load(leaf.radius) + Float8::all(ray.sphere_error);
-    LaneMask met =
-        (square <= reach * reach) & (Float8::all(0) <= foot + reach) & (foot - reach <= Float8::all(at.latest));
-    met &= ~lanes_equal(Int8::load(leaf.id), static_cast<std::uint32_t>(at.from));
-    for (; met != 0; met &= met - 1) {
-      offers_[offers++] = {&at, leaf.id[std::countr_zero(met)]};
+    const LaneMask met =
+        (square <= reach * reach) & (Float8::all(0) <= foot + reach) & (foot - reach <= Float8::all(latest));
+    return met & ~lanes_equal(Int8::load(leaf.id), static_cast<std::uint32_t>(from));
+  }
+
+  void offer(SurfaceId sphere) noexcept {
+    if (search.offer(sphere)) size = 1;
+    if constexpr (Search::kCanShorten) latest = ray.t_of(search.latest());
+  }
+};
+
+/// Traces rays through a tree, many at a time. Each step of a ray is a handful of vector instructions without a
+/// branch; steps of different rays are independent of each other, so the processor overlaps them.
+template <class Search, class Queries>
+class Stream {
+ public:
+  Stream(const Bvh& bvh, Queries& queries) noexcept
+      : space_(bvh.space()), nodes_(bvh.nodes().data()), leaves_(bvh.leaves().data()), queries_(queries) {}
+
+  /// Answers all queries. `queries` has find_next(), which goes on to the next that has to be traced if there is one,
+  /// number() and search() of that, and answer(number, search).
+  void run() noexcept {
+    while (size_ != kInFlight && queries_.find_next()) {
+      active_[size_] = static_cast<std::uint32_t>(size_);
+      start(size_++);
     }
-    return offers;
+    while (size_ > 0) step();
   }
 
-  static void offer(Traversal<Search>& at, SurfaceId sphere) noexcept {
-    if (at.search.offer(sphere)) at.size = 0;
-    at.latest = at.ray.t_of(at.search.latest());
+ private:
+  /// A slot, and the node, leaf or sphere that its ray comes to.
+  struct Steps {
+    std::uint32_t slot[kInFlight * kTreeWidth + kTreeWidth];
+    std::uint32_t target[kInFlight * kTreeWidth + kTreeWidth];
+    std::size_t size = 0;
+
+    /// Adds a step if it `is_one`, without a branch.
+    void add_if(bool is_one, std::uint32_t from, std::uint32_t to) noexcept {
+      slot[size] = from;
+      target[size] = to;
+      size += is_one;
+    }
+  };
+
+  Traversal<Search>& traversal(std::size_t slot) noexcept {
+    return *std::launder(reinterpret_cast<Traversal<Search>*>(storage_ + slot * sizeof(Traversal<Search>)));
   }
 
+  void start(std::size_t slot) noexcept {
+    new (storage_ + slot * sizeof(Traversal<Search>)) Traversal<Search>(space_, queries_.number(), queries_.search());
+  }
+
+  /// Takes every ray one step on.
+  void step() noexcept {
+    Steps nodes;
+    Steps leaves;
+    std::size_t ended[kInFlight];
+    std::size_t ends = 0;
+    for (std::size_t i = 0; i != size_; ++i) {
+      const std::uint32_t slot = active_[i];
+      const std::uint32_t child = traversal(slot).next_child();
+      const bool is_end = child == Traversal<Search>::kEnd;
+      nodes.add_if(!TreeChild::is_leaf(child), slot, child);
+      leaves.add_if(TreeChild::is_leaf(child) && !is_end, slot, TreeChild::index(child));
+      ended[ends] = i;
+      ends += is_end;
+    }
+    for (std::size_t i = 0; i != nodes.size; ++i) traversal(nodes.slot[i]).enter(nodes_[nodes.target[i]]);
+    Steps offers;
+    for (std::size_t i = 0; i != leaves.size; ++i) {
+      const TreeLeaf& leaf = leaves_[leaves.target[i]];
+      const LaneMask met = traversal(leaves.slot[i]).may_meet(leaf);
+      Int8::all(leaves.slot[i]).store(offers.slot + offers.size);
+      picked(Int8::load(leaf.id), lanes_in_order(met, 0)).store(offers.target + offers.size);
+      offers.size += static_cast<std::size_t>(std::popcount(met));
+    }
+    for (std::size_t i = 0; i != offers.size; ++i) {
+      traversal(offers.slot[i]).offer(static_cast<SurfaceId>(offers.target[i]));
+    }
+    // From the back, for the last takes the place of one that ends.
+    while (ends > 0) end(ended[--ends]);
+  }
+
+  void end(std::size_t i) noexcept {
+    const std::uint32_t slot = active_[i];
+    Traversal<Search>& at = traversal(slot);
+    queries_.answer(at.query, at.search);
+    if (queries_.find_next()) {
+      start(slot);
+    } else {
+      active_[i] = active_[--size_];
+    }
+  }
+
+  TreeSpace space_;
   const TreeNode* nodes_;
   const TreeLeaf* leaves_;
-  const Bvh& bvh_;
+  Queries& queries_;
   std::size_t size_ = 0;
-  std::size_t free_ = 0;
-  std::uint8_t active_[kInFlight];
-  std::uint8_t free_slots_[kInFlight];
-  Step node_steps_[kInFlight];
-  Step leaf_steps_[kInFlight];
-  Offer offers_[kInFlight * kTreeWidth];
+  std::uint32_t active_[kInFlight];
   alignas(64) std::byte storage_[kInFlight * sizeof(Traversal<Search>)];
 };
 
-/// Where answers go.
-struct Hits {
-  std::span<std::optional<Hit>> hits;
-  void operator()(std::size_t query, NearestSearch& search) noexcept { hits[query] = search.finish(); }
+class NearestQueries {
+ public:
+  NearestQueries(const Scene& scene, std::span<const RayInRegion> rays,
+                 std::span<std::optional<SurfacePoint>> points) noexcept
+      : scene_(scene), rays_(rays), points_(points) {}
+
+  bool find_next() noexcept {
+    for (++number_; number_ < rays_.size(); ++number_) {
+      const auto& [ray, region] = rays_[number_];
+      if (is_squarable(dot(ray.direction, ray.direction))) return true;
+      points_[number_] = nearest_hit(scene_, ray, *region);
+    }
+    return false;
+  }
+  std::size_t number() const noexcept { return number_; }
+  NearestSearch search() const noexcept { return {scene_, rays_[number_].ray, *rays_[number_].region}; }
+  void answer(std::size_t number, NearestSearch& search) noexcept { points_[number] = search.finish_point(); }
+
+ private:
+  const Scene& scene_;
+  std::span<const RayInRegion> rays_;
+  std::span<std::optional<SurfacePoint>> points_;
+  std::size_t number_ = std::size_t{0} - 1;
 };
-struct Occlusions {
-  std::span<std::uint8_t> occluded;
-  void operator()(std::size_t query, const OcclusionSearch& search) noexcept { occluded[query] = search.is_occluded(); }
+
+class OcclusionQueries {
+ public:
+  OcclusionQueries(const Scene& scene, std::span<const RayInRegion> to_light, std::size_t light,
+                   std::span<std::uint8_t> occluded) noexcept
+      : scene_(scene), rays_(to_light), light_(light), occluded_(occluded) {
+    const bool is_point = scene.data().lights[light].kind == LightKind::point;
+    end_ = is_point ? 1 : std::numeric_limits<double>::infinity();
+  }
+
+  bool find_next() noexcept {
+    for (++number_; number_ < rays_.size(); ++number_) {
+      const auto& [ray, region] = rays_[number_];
+      if (region != last_region_) {
+        last_region_ = region;
+        is_shut_off_ = is_shut_off(scene_, light_, *region);
+      }
+      if (!is_shut_off_ && is_squarable(dot(ray.direction, ray.direction))) return true;
+      occluded_[number_] = is_occluded(scene_, ray, light_, *region);
+    }
+    return false;
+  }
+  std::size_t number() const noexcept { return number_; }
+  OcclusionSearch search() const noexcept { return {scene_, rays_[number_].ray, end_, light_, *rays_[number_].region}; }
+  void answer(std::size_t number, const OcclusionSearch& search) noexcept { occluded_[number] = search.is_occluded(); }
+
+ private:
+  const Scene& scene_;
+  std::span<const RayInRegion> rays_;
+  std::size_t light_;
+  std::span<std::uint8_t> occluded_;
+  double end_;
+  const Region* last_region_ = nullptr;
+  bool is_shut_off_ = false;  ///< in that region
+  std::size_t number_ = std::size_t{0} - 1;
 };
+
+template <class Search, class Queries>
+void answer_all(const Scene& scene, Queries queries) noexcept {
+  if (scene.bvh().nodes().empty()) {
+    while (queries.find_next()) {
+      Search search = queries.search();
+      queries.answer(queries.number(), search);
+    }
+    return;
+  }
+  Stream<Search, Queries>(scene.bvh(), queries).run();
+}
 
 }  // namespace
 
 [[gnu::flatten]] void nearest_hits(const Scene& scene, std::span<const RayInRegion> rays,
-                                   std::span<std::optional<Hit>> hits) {
-  Stream<NearestSearch> stream(scene.bvh());
-  Hits done{hits};
-  for (std::size_t next = 0; next != rays.size() || !stream.is_empty();) {
-    for (; next != rays.size() && !stream.is_full(); ++next) {
-      const auto& [ray, region] = rays[next];
-      if (!is_squarable(dot(ray.direction, ray.direction))) {
-        hits[next] = nearest_hit(scene, ray, *region);
-        continue;
-      }
-      stream.add(NearestSearch(scene, ray, *region), next);
-    }
-    stream.step(done);
-  }
+                                   std::span<std::optional<SurfacePoint>> points) {
+  answer_all<NearestSearch>(scene, NearestQueries(scene, rays, points));
 }
 
 [[gnu::flatten]] void occlusions(const Scene& scene, std::span<const RayInRegion> to_light, std::size_t light,
                                  std::span<std::uint8_t> occluded) {
-  Stream<OcclusionSearch> stream(scene.bvh());
-  Occlusions done{occluded};
-  const bool is_point = scene.data().lights[light].kind == LightKind::point;
-  const double end = is_point ? 1 : std::numeric_limits<double>::infinity();
-  for (std::size_t next = 0; next != to_light.size() || !stream.is_empty();) {
-    for (; next != to_light.size() && !stream.is_full(); ++next) {
-      const auto& [ray, region] = to_light[next];
-      if (!is_squarable(dot(ray.direction, ray.direction)) || is_shut_off(scene, light, *region)) {
-        occluded[next] = is_occluded(scene, ray, light, *region);
-        continue;
-      }
-      stream.add(OcclusionSearch(scene, ray, end, light, *region), next);
-    }
-    stream.step(done);
-  }
+  answer_all<OcclusionSearch>(scene, OcclusionQueries(scene, to_light, light, occluded));
 }
 
 }  // namespace tessera::render::avx2
@@ -226,7 +306,7 @@ TESSERA_END_AVX2
 namespace tessera::render::avx2 {
 
 // Never called: no such kernel is supported here.
-void nearest_hits(const Scene&, std::span<const RayInRegion>, std::span<std::optional<Hit>>) {}
+void nearest_hits(const Scene&, std::span<const RayInRegion>, std::span<std::optional<SurfacePoint>>) {}
 void occlusions(const Scene&, std::span<const RayInRegion>, std::size_t, std::span<std::uint8_t>) {}
 
 }  // namespace tessera::render::avx2

@@ -43,46 +43,66 @@ struct TreeRay {
   /// An origin that is not known to this is not known at all: then every box and every sphere is looked at.
   static constexpr double kFarthest = 0x1p30;
 
-  float near_origin[3];
-  float far_origin[3];
-  float inverse[3];       ///< of the direction, within +-2^100
+  /// A huge finite reciprocal says without 0 * infinity that a ray along a slab is inside of it for all t or for none.
+  static constexpr double kLargestInverse = 0x1p100;
+
+  // By axis, and a lane to spare.
+  float near_origin[4];
+  float far_origin[4];
+  float inverse[4];       ///< of the direction
+  float origin[4];
+  float direction[4];     ///< of length 1
   unsigned near_side[3];  ///< 0: a box's low side is met first, 1: its high side
-  float origin[3];
-  float direction[3];  ///< of length 1
-  float sphere_error;  ///< the ray's share of what the distance of a centre from the line may be off by
-  double t_scale;      ///< t of the tree is t_scale t - t_shift, or a little less
+  float sphere_error;     ///< the ray's share of what the distance of a centre from the line may be off by
+  double t_scale;         ///< t of the tree is t_scale t - t_shift, or a little less
   double t_shift;
 
+  /// What the members are computed from.
+  struct Start {
+    Vec3 origin;   ///< in tree space
+    Vec3 unit;     ///< direction
+    double shift;  ///< how far along the ray the origin was moved
+    double off;    ///< by how much that may have misplaced it
+  };
+
+  TreeRay() = default;
   /// units:   inverse_length is 1 / |ray.direction|
   TreeRay(const TreeSpace& space, const Ray& ray, double inverse_length) noexcept {
-    const Vec3 unit = ray.direction * inverse_length;
-    Vec3 o = space.from_scene(ray.origin);
-    // From far away, begin where the spheres do: what is far from the base rounds coarsely.
-    double off = 0;
-    t_shift = 0;
-    const Vec3 way = space.middle - o;
-    if (dot(way, way) > 16 * space.extent * space.extent) {
-      t_shift = std::sqrt(dot(way, way)) - 1.001 * space.extent;
-      off = 0x1p-50 * (sum_of_sizes(o) + t_shift);
-      o = o + t_shift * unit;
-    }
-    t_scale = space.scale / inverse_length * (1 + 0x1p-50);
-    t_shift *= 1 - 0x1p-50;
+    const Start start = start_of(space, ray, inverse_length);
     for (int axis = 0; axis != 3; ++axis) {
-      const double x = std::clamp(o[axis], -kFarthest, kFarthest);
-      const double d = unit[axis];
-      const float up = TreeSpace::up(std::min(x + off, kFarthest));
-      const float down = TreeSpace::down(std::max(x - off, -kFarthest));
-      const bool forward = !(d < 0);
+      const double x = std::clamp(start.origin[axis], -kFarthest, kFarthest);
+      const double d = start.unit[axis];
+      const float up = TreeSpace::up(std::min(x + start.off, kFarthest));
+      const float down = TreeSpace::down(std::max(x - start.off, -kFarthest));
+      const bool forward = !std::signbit(d);
       near_origin[axis] = forward ? up : down;
       far_origin[axis] = forward ? down : up;
       near_side[axis] = forward ? 0 : 1;
-      constexpr double kHuge = 0x1p100;
-      inverse[axis] = static_cast<float>(d == 0 ? kHuge : std::clamp(1 / d, -kHuge, kHuge));
+      inverse[axis] = static_cast<float>(std::clamp(1 / d, -kLargestInverse, kLargestInverse));
       origin[axis] = static_cast<float>(x);
       direction[axis] = static_cast<float>(d);
     }
-    sphere_error = TreeSpace::up(std::min(kSphereError * sum_of_sizes(o) + 4 * off, 4 * kFarthest));
+    set_scalars(space, start, inverse_length);
+  }
+
+  static Start start_of(const TreeSpace& space, const Ray& ray, double inverse_length) noexcept {
+    Start start{space.from_scene(ray.origin), ray.direction * inverse_length, 0, 0};
+    // From far away, begin where the spheres do: what is far from the base rounds coarsely.
+    const Vec3 way = space.middle - start.origin;
+    const double squared = dot(way, way);
+    if (squared > 16 * space.extent * space.extent) {
+      start.shift = std::sqrt(squared) - 1.001 * space.extent;
+      start.off = 0x1p-50 * (sum_of_sizes(start.origin) + start.shift);
+      start.origin = start.origin + start.shift * start.unit;
+    }
+    return start;
+  }
+
+  void set_scalars(const TreeSpace& space, const Start& start, double inverse_length) noexcept {
+    sphere_error =
+        TreeSpace::up(std::min(kSphereError * sum_of_sizes(start.origin) + 4 * start.off, 4 * kFarthest));
+    t_scale = space.scale / inverse_length * (1 + 0x1p-50);
+    t_shift = start.shift * (1 - 0x1p-50);
   }
 
   /// Scene distances in the tree's units, rounded up.

@@ -11,18 +11,18 @@
 // of them give the same bits.
 namespace tessera::render {
 
-inline Cell cell_of(const Scene& scene, const Hit& hit) noexcept {
+inline Cell cell_of(const Scene& scene, const SurfacePoint& hit) noexcept {
   return scene.is_sphere(hit.surface) ? Cell::even : cell_at(scene.plane(hit.surface), hit.point);
 }
 
-inline const Material& material_of(const Scene& scene, const Hit& hit, Cell cell) noexcept {
+inline const Material& material_of(const Scene& scene, const SurfacePoint& hit, Cell cell) noexcept {
   const MaterialIndex index =
       scene.is_sphere(hit.surface) ? scene.sphere(hit.surface).material : material_of(scene.plane(hit.surface), cell);
   return scene.data().materials[static_cast<std::size_t>(index)];
 }
 
 /// The hit's normal on the side that the path is on.
-inline Vec3 facing_normal(const Scene& scene, const Hit& hit, const Region& region) noexcept {
+inline Vec3 facing_normal(const Scene& scene, const SurfacePoint& hit, const Region& region) noexcept {
   const bool outside = scene.is_sphere(hit.surface) ? !region.is_inside(hit.surface)
                                                     : region.side_of(index_of(hit.surface) - scene.sphere_count()) > 0;
   return outside ? hit.normal : -hit.normal;
@@ -49,13 +49,13 @@ inline Vec3 way_to(const Light& light, const Vec3& point) noexcept {
 }
 
 /// The ray from a hit towards a light.
-inline Ray ray_to_light(const Hit& hit, const Vec3& way) noexcept {
+inline Ray ray_to_light(const SurfacePoint& hit, const Vec3& way) noexcept {
   return {hit.point, way, hit.surface, hit.normal};
 }
 
 /// The ray that a mirror at a hit sends on.
 /// shapes:  normal is unit
-inline Ray mirrored_ray(const Hit& hit, const Vec3& normal, const Vec3& incoming) noexcept {
+inline Ray mirrored_ray(const SurfacePoint& hit, const Vec3& normal, const Vec3& incoming) noexcept {
   return {hit.point, incoming - 2 * dot(normal, incoming) * normal, hit.surface, hit.normal};
 }
 

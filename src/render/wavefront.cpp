@@ -38,10 +38,18 @@ void Wavefront::meet_surfaces(std::span<Rgb> radiances) {
       continue;
     }
     const auto& [ray, region] = rays_[i];
-    const Hit& hit = *hits_[i];
+    const SurfacePoint& hit = *hits_[i];
     const Material& material = material_of(scene_, hit, cell_of(scene_, hit));
-    vertices_.push_back({paths_[i], region, hit, &material, facing_normal(scene_, hit, *region), ray.direction,
-                         to_viewer_of(material, ray.direction), weights_[i], ambient_radiance(scene_, material)});
+    Vertex& at = vertices_.emplace_back();
+    at.path = paths_[i];
+    at.region = region;
+    at.hit = hit;
+    at.material = &material;
+    at.normal = facing_normal(scene_, hit, *region);
+    at.incoming = ray.direction;
+    at.to_viewer = to_viewer_of(material, ray.direction);
+    at.weight = weights_[i];
+    at.local = ambient_radiance(scene_, material);
   }
 }
 

@@ -29,7 +29,7 @@ class Wavefront {
   struct Vertex {
     std::size_t path;
     const Region* region;
-    Hit hit;
+    SurfacePoint hit;
     const Material* material;
     Vec3 normal;     ///< unit, on the side that the path is on
     Vec3 incoming;   ///< direction of the ray that met the surface
@@ -48,7 +48,7 @@ class Wavefront {
   std::vector<RayInRegion> rays_;
   std::vector<std::size_t> paths_;
   std::vector<double> weights_;
-  std::vector<std::optional<Hit>> hits_;
+  std::vector<std::optional<SurfacePoint>> hits_;
   std::vector<Vertex> vertices_;
   // Rays to one light: from which vertices, and whether something is in the way.
   std::vector<RayInRegion> light_rays_;
