@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tree against trying every sphere: the same surface, distance and normal, bit for bit.
-#include <bit>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdint>
 
+#include "render/same_bits.h"
 #include "render/scene_fixture.h"
 #include "render/scene_kinds.h"
 
@@ -12,17 +12,6 @@ using namespace tessera::render;
 using namespace tessera::render::test;
 
 namespace {
-
-bool same_bits(const Vec3& a, const Vec3& b) {
-  const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v); };
-  return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
-}
-
-bool same_bits(const std::optional<Hit>& a, const std::optional<Hit>& b) {
-  if (!a || !b) return !a && !b;
-  return a->surface == b->surface && same_bits({a->t, 0, 0}, {b->t, 0, 0}) && same_bits(a->point, b->point) &&
-         same_bits(a->normal, b->normal);
-}
 
 /// Sends the same rays through both kernels and counts the answers that differ.
 struct Comparison {
