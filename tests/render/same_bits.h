@@ -20,10 +20,21 @@ inline bool same_bits(const Vec3& a, const Vec3& b) {
 inline bool same_bits(const Rgb& a, const Rgb& b) {
   return same_bits(a.r, b.r) && same_bits(a.g, b.g) && same_bits(a.b, b.b);
 }
+inline bool same_bits(const SurfacePoint& a, const SurfacePoint& b) {
+  return a.surface == b.surface && same_bits(a.point, b.point) && same_bits(a.normal, b.normal);
+}
+inline bool same_bits(const Hit& a, const Hit& b) {
+  return same_bits(a.t, b.t) && same_bits(static_cast<const SurfacePoint&>(a), static_cast<const SurfacePoint&>(b));
+}
+/// Of two points, or of a point and what a single ray found.
+inline bool same_bits(const std::optional<SurfacePoint>& a, const std::optional<Hit>& b) {
+  return a && b ? same_bits(*a, static_cast<const SurfacePoint&>(*b)) : !a && !b;
+}
+inline bool same_bits(const std::optional<SurfacePoint>& a, const std::optional<SurfacePoint>& b) {
+  return a && b ? same_bits(*a, *b) : !a && !b;
+}
 inline bool same_bits(const std::optional<Hit>& a, const std::optional<Hit>& b) {
-  if (!a || !b) return !a && !b;
-  return a->surface == b->surface && same_bits(a->t, b->t) && same_bits(a->point, b->point) &&
-         same_bits(a->normal, b->normal);
+  return a && b ? same_bits(*a, *b) : !a && !b;
 }
 
 }  // namespace tessera::render::test
