@@ -10,6 +10,7 @@
 #include "render/bvh_build.h"
 #include "render/exact.h"
 #include "render/scene_kinds.h"
+#include "render/tree_inspection.h"
 
 using namespace tessera::render;
 using namespace tessera::render::test;
@@ -17,55 +18,6 @@ using namespace tessera::render::test;
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-/// Whether a sphere lies inside a box in scene coordinates.
-bool is_within(const Sphere& sphere, const Box& box) {
-  const Vec3 r{sphere.radius, sphere.radius, sphere.radius};
-  return box.contains(sphere.center - r) && box.contains(sphere.center + r);
-}
-
-/// Walks a whole tree and counts what breaks its promises.
-struct Inspection {
-  const Bvh& bvh;
-  std::span<const Sphere> all;
-  int outside = 0;  ///< spheres that leave a box around them
-  int deepest = 0;
-  std::multiset<std::size_t> spheres;
-
-  Inspection(const Bvh& tree, std::span<const Sphere> scene) : bvh(tree), all(scene) {
-    if (!bvh.nodes().empty()) visit(0, {});
-  }
-
-  void visit(std::uint32_t child, const std::vector<Box>& around) {
-    deepest = std::max(deepest, static_cast<int>(around.size()));
-    if (!TreeChild::is_leaf(child)) {
-      const TreeNode& node = bvh.nodes()[child];
-      for (int i = 0; i != kTreeWidth; ++i) {
-        std::vector<Box> boxes = around;
-        boxes.push_back(bvh.child_box(node, i));
-        if (!boxes.back().is_empty()) visit(node.child[i], boxes);
-      }
-      return;
-    }
-    for (const SurfaceId id : bvh.leaves()[TreeChild::index(child)].id) {
-      if (id == SurfaceId::none) continue;
-      spheres.insert(index_of(id));
-      for (const Box& box : around) outside += !is_within(all[index_of(id)], box);
-    }
-  }
-};
-
-void check_invariants(std::span<const Sphere> spheres) {
-  const Bvh bvh = build_bvh(spheres);
-  const Inspection found(bvh, spheres);
-  BOOST_TEST(found.outside == 0);
-  BOOST_TEST(found.deepest < Bvh::kMaxDepth);
-  std::multiset<std::size_t> expected;
-  for (std::size_t i = 0; i != spheres.size(); ++i) {
-    if (spheres[i].radius > 0) expected.insert(i);
-  }
-  BOOST_TEST((found.spheres == expected));
-}
 
 }  // namespace
 
