@@ -33,6 +33,12 @@ normal = [0, 0, 1]
 """
 
 
+def runs_avx2():
+    """Whether this machine has the instructions of the avx2 kernel."""
+    flags = pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace").split()
+    return "avx2" in flags and "fma" in flags
+
+
 class CommandLineTest(running_program.ProgramTest):
     def setUp(self):
         super().setUp()
@@ -54,6 +60,23 @@ class CommandLineTest(running_program.ProgramTest):
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertEqual((self.folder / "many.png").read_bytes(), reference)
                 self.assertEqual(run.stdout, "")
+
+    def test_every_kernel_writes_the_same_file(self):
+        planes = self.write("planes.toml", SMALL_SCENE[:SMALL_SCENE.index("[[sphere]]")] +
+                            SMALL_SCENE[SMALL_SCENE.index("[[plane]]"):])
+        for scene in (self.scene, planes):
+            self.assertEqual(self.run_tessera("render", scene, "-o", "scalar.png", "--kernel", "scalar").returncode, 0)
+            reference = (self.folder / "scalar.png").read_bytes()
+            for kernel, ranks in [("auto", 0), ("brute", 0), ("avx2", 0), ("avx2", 2)]:
+                with self.subTest(scene=scene, kernel=kernel, ranks=ranks):
+                    run = self.run_tessera("render", scene, "-o", "other.png", "--kernel", kernel, ranks=ranks)
+                    if kernel == "avx2" and not runs_avx2():
+                        self.assertEqual(run.returncode, USAGE)
+                        self.assertIn("AVX2", run.stderr)
+                        continue
+                    self.assertEqual(run.returncode, 0, run.stderr)
+                    self.assertEqual((self.folder / "other.png").read_bytes(), reference)
+        self.assert_refused(USAGE, "render", self.scene, "--kernel", "avx3", says='did you mean "avx2"')
 
     def test_every_format_and_depth_holds_the_same_picture(self):
         for name, extra in [("a.png", ["--bits", "16"]), ("b.ppm", ["--bits", "16"])]:
