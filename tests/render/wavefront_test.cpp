@@ -4,10 +4,10 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <deque>
 #include <string>
 #include <vector>
 
+#include "render/camera_paths.h"
 #include "render/encode.h"
 #include "render/kernels.h"
 #include "render/same_bits.h"
@@ -52,17 +52,6 @@ SceneData mirror_scene(std::size_t lights) {
   data.camera->height = 6;
   return data;
 }
-
-/// Camera rays with regions of their own.
-struct CameraPaths {
-  std::deque<Region> regions;
-  std::vector<RayInRegion> rays;
-
-  void add(const Scene& scene, const Vec3& eye, const Vec3& direction) {
-    regions.push_back(region_at(scene, eye, direction));
-    rays.push_back({{.origin = eye, .direction = direction}, &regions.back()});
-  }
-};
 
 /// Paths from eyes anywhere: also in spheres, and on them.
 CameraPaths paths_through(const Scene& scene, const Vec3& center, double size, int count) {

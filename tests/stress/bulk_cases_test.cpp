@@ -2,6 +2,7 @@
 // Many spheres, in places that are hard on a tree. TESSERA_STRESS_SCALE=100 makes them 1e7 and 1e6.
 #include <utility>
 
+#include "render/camera_paths.h"
 #include "stress/near_spheres.h"
 #include "stress/stress_scene.h"
 
@@ -156,6 +157,8 @@ void check_bulk(Verdict& verdict, const std::string& name, SceneData data) {
   std::size_t wrong = 0;
   std::size_t tried = 0;
   std::size_t hits = 0;
+  CameraPaths compared;
+  std::vector<Rgb> alone;
   auto of_path = near.begin();
   for (const PixelPath& path : paths) {
     std::vector<std::uint32_t> indices;
@@ -179,8 +182,13 @@ void check_bulk(Verdict& verdict, const std::string& name, SceneData data) {
     wrong += !is_first_right || error_of({seen.r, seen.g, seen.b}, radiance) > 1e-6;
     hits += exact.has_value();
     ++tried;
+    compared.add({.origin = ray.origin, .direction = ray.direction}, region);
+    alone.push_back(seen);
   }
   verdict.none_wrong("pixels", wrong, tried);
+  // The fastest kernel follows many paths at a time.
+  const std::vector<Rgb> together = seen_together(scene, compared.rays);
+  verdict.require(together == alone, "same bits together");
   verdict.require(tried >= 1000 && hits > 100 && tried - hits > 20, std::to_string(hits) + " hits");
 }
 
