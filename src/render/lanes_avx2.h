@@ -74,7 +74,7 @@ inline LaneMask lanes_equal(Int8 a, std::uint32_t b) noexcept {
 /// Eight small numbers in one word, the first in its lowest byte.
 using PackedLanes = std::uint64_t;
 
-/// By octant and mask: the numbers j for which the mask has lane j ^ octant, ascending.
+/// By octant and mask: the lanes of the mask, in ascending order of lane ^ octant.
 inline constexpr auto kLanesInOrder = [] {
   std::array<std::array<PackedLanes, 256>, 8> table{};
   for (std::size_t octant = 0; octant != 8; ++octant) {
