@@ -7,8 +7,7 @@
 namespace tessera::app {
 
 /// Writes a scene in the format that the output's ending names; a .toml with many spheres gets a table of them beside
-/// it. What that cannot say exactly goes to stderr in notes,
-/// after those of the reader.
+/// it. What the format cannot say exactly goes to stderr in notes, after those of the reader.
 /// throws:  UsageError, io::Error
 ExitCode run_convert(const ConvertOptions& options);
 

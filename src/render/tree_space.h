@@ -36,7 +36,7 @@ struct TreeSpace {
 ///          rounded away, so both differences err outward; three roundings of each distance are within kSlack.
 ///          spheres: with M = |C| + |O| (sums of sizes), the perpendicular from the centre to the line is off by less
 ///          than 17 2^-24 M: 4.4 from rounding and subtracting C and O, 12 from rounding the direction, the foot and
-///          the products. So 2^-19 M, half of it counted with the sphere and half with the ray, outweighs it
+///          the products. 2^-19 M outweighs it; its part from C is counted with the sphere, that from O with the ray
 struct TreeRay {
   static constexpr float kSlack = 1 + 0x1p-20F;
   static constexpr double kSphereError = 0x1p-19;
