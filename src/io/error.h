@@ -8,10 +8,10 @@
 namespace tessera::io {
 
 enum class ErrorKind {
-  bad_scene,       ///< the input can be read but not understood
-  input_missing,   ///< the input cannot be opened
-  cannot_create,   ///< the output cannot be created
-  io_failure,      ///< reading or writing failed on the way
+  bad_scene,      ///< the input can be read but not understood
+  input_missing,  ///< the input cannot be opened
+  cannot_create,  ///< the output cannot be created
+  io_failure,     ///< reading or writing failed on the way
 };
 
 /// what() is one line for a person: "file:line:column: problem (why) suggestion".

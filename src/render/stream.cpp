@@ -5,7 +5,8 @@
 
 namespace tessera::render {
 
-void nearest_hits(const Scene& scene, std::span<const RayInRegion> rays, std::span<std::optional<SurfacePoint>> points) {
+void nearest_hits(const Scene& scene, std::span<const RayInRegion> rays,
+                  std::span<std::optional<SurfacePoint>> points) {
   if (scene.kernel() == Kernel::avx2) return avx2::nearest_hits(scene, rays, points);
   for (std::size_t i = 0; i != rays.size(); ++i) points[i] = nearest_hit(scene, rays[i].ray, *rays[i].region);
 }

@@ -49,7 +49,7 @@ struct TreeRay {
   // By axis, and a lane to spare.
   float near_origin[4];
   float far_origin[4];
-  float inverse[4];       ///< of the direction
+  float inverse[4];  ///< of the direction
   float origin[4];
   float direction[4];     ///< of length 1
   unsigned near_side[3];  ///< 0: a box's low side is met first, 1: its high side
@@ -99,8 +99,7 @@ struct TreeRay {
   }
 
   void set_scalars(const TreeSpace& space, const Start& start, double inverse_length) noexcept {
-    sphere_error =
-        TreeSpace::up(std::min(kSphereError * sum_of_sizes(start.origin) + 4 * start.off, 4 * kFarthest));
+    sphere_error = TreeSpace::up(std::min(kSphereError * sum_of_sizes(start.origin) + 4 * start.off, 4 * kFarthest));
     t_scale = space.scale / inverse_length * (1 + 0x1p-50);
     t_shift = start.shift * (1 - 0x1p-50);
   }
