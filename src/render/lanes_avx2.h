@@ -95,13 +95,16 @@ inline Int8 lanes_in_order(LaneMask mask, unsigned octant) noexcept {
   return {_mm256_cvtepu8_epi32(_mm_cvtsi64_si128(packed))};
 }
 
-/// x, y, z and a lane to spare, in double.
+/// Four lanes of double: x, y, z and one to spare, or one quantity of four rays.
 struct Double4 {
   __m256d v;
 
+  static Double4 load(const double* p) noexcept { return {_mm256_loadu_pd(p)}; }
   static Double4 all(double x) noexcept { return {_mm256_set1_pd(x)}; }
-  static Double4 of(const Vec3& p) noexcept { return {_mm256_setr_pd(p.x, p.y, p.z, 1)}; }
+  static Double4 of(double a, double b, double c, double d) noexcept { return {_mm256_setr_pd(a, b, c, d)}; }
+  static Double4 of(const Vec3& p) noexcept { return of(p.x, p.y, p.z, 1); }
   Double4 size() const noexcept { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), v)}; }
+  void store(double* p) const noexcept { _mm256_storeu_pd(p, v); }
   /// Rounds to nearest and writes four.
   void store(float* p) const noexcept { _mm_storeu_ps(p, _mm256_cvtpd_ps(v)); }
 };
@@ -117,6 +120,45 @@ inline Double4 operator*(Double4 a, Double4 b) noexcept {
 }
 inline Double4 operator/(Double4 a, Double4 b) noexcept {
   return {_mm256_div_pd(a.v, b.v)};
+}
+inline Double4 operator-(Double4 a) noexcept {
+  return {_mm256_xor_pd(a.v, _mm256_set1_pd(-0.0))};
+}
+inline Double4 sqrt(Double4 a) noexcept {
+  return {_mm256_sqrt_pd(a.v)};
+}
+/// As std::min(a, b) and std::max(a, b), of 0 and -0 too.
+inline Double4 min(Double4 a, Double4 b) noexcept {
+  return {_mm256_min_pd(b.v, a.v)};
+}
+inline Double4 max(Double4 a, Double4 b) noexcept {
+  return {_mm256_max_pd(b.v, a.v)};
+}
+/// a b - c, rounded once.
+inline Double4 fused_less(Double4 a, Double4 b, Double4 c) noexcept {
+  return {_mm256_fmsub_pd(a.v, b.v, c.v)};
+}
+/// c - a b, rounded once.
+inline Double4 fused_minus(Double4 a, Double4 b, Double4 c) noexcept {
+  return {_mm256_fnmadd_pd(a.v, b.v, c.v)};
+}
+
+/// Lanes of Double4 for which something holds.
+struct Mask4 {
+  __m256d v;
+
+  LaneMask bits() const noexcept { return static_cast<LaneMask>(_mm256_movemask_pd(v)); }
+};
+
+inline Mask4 operator<(Double4 a, Double4 b) noexcept {
+  return {_mm256_cmp_pd(a.v, b.v, _CMP_LT_OQ)};
+}
+inline Mask4 operator&(Mask4 a, Mask4 b) noexcept {
+  return {_mm256_and_pd(a.v, b.v)};
+}
+/// a in the lanes of `mask`, else b.
+inline Double4 where(Mask4 mask, Double4 a, Double4 b) noexcept {
+  return {_mm256_blendv_pd(b.v, a.v, mask.v)};
 }
 inline Double4 clamp(Double4 a, double farthest) noexcept {
   return {_mm256_max_pd(_mm256_set1_pd(-farthest), _mm256_min_pd(a.v, _mm256_set1_pd(farthest)))};

@@ -36,8 +36,8 @@ class NearestSearch {
   /// The first surface of all that were offered, and how far it is.
   std::optional<Hit> finish() noexcept;
 
-  /// The same but for how far it is, which costs less.
-  std::optional<SurfacePoint> finish_point() noexcept;
+  /// The sphere that is surely entered before all else that was offered, if nothing is left to decide; else none.
+  SurfaceId sure_entry() const noexcept;
 
  private:
   void look_at_walls() noexcept;
@@ -230,12 +230,9 @@ inline std::optional<Hit> NearestSearch::entry_hit(SurfaceId id) const noexcept 
   return Hit{sphere_point(id, normal_at(*crossing, ray_->direction)), crossing->t.value};
 }
 
-inline std::optional<SurfacePoint> NearestSearch::finish_point() noexcept {
-  if (favourite_ != SurfaceId::none && best_.surface == SurfaceId::none && scene_->is_sphere(favourite_)) {
-    const Sphere& sphere = scene_->sphere(favourite_);
-    return sphere_point(favourite_, sure_entry_normal(*ray_, norm_, sphere.center, sphere.radius));
-  }
-  return finish();
+inline SurfaceId NearestSearch::sure_entry() const noexcept {
+  const bool is_sure = best_.surface == SurfaceId::none && scene_->is_sphere(favourite_);
+  return is_sure ? favourite_ : SurfaceId::none;
 }
 
 inline Hit NearestSearch::plane_hit(SurfaceId id, double t) const noexcept {

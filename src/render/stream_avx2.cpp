@@ -3,6 +3,7 @@
 #include <limits>
 #include <new>
 
+#include "render/entry_points.h"
 #include "render/intersect.h"
 #include "render/lanes_avx2.h"
 #include "render/search.h"
@@ -230,13 +231,31 @@ class NearestQueries {
   }
   std::size_t number() const noexcept { return number_; }
   NearestSearch search() const noexcept { return {scene_, rays_[number_].ray, *rays_[number_].region}; }
-  void answer(std::size_t number, NearestSearch& search) noexcept { points_[number] = search.finish_point(); }
+  void answer(std::size_t number, NearestSearch& search) noexcept {
+    const SurfaceId sphere = search.sure_entry();
+    if (sphere == SurfaceId::none) {
+      points_[number] = search.finish();
+      return;
+    }
+    entries_[size_++] = {static_cast<std::uint32_t>(number), sphere};
+    if (size_ == kEntriesTogether) finish();
+  }
+  /// Computes the points that are left.
+  void finish() noexcept {
+    avx2::entry_points(scene_, rays_, std::span(entries_).first(size_), points_);
+    size_ = 0;
+  }
 
  private:
+  static constexpr std::size_t kEntriesTogether = 64;
+
   const Scene& scene_;
   std::span<const RayInRegion> rays_;
   std::span<std::optional<SurfacePoint>> points_;
   std::size_t number_ = std::size_t{0} - 1;
+  // Rays that have met their spheres, where they do being still to be computed.
+  SureEntry entries_[kEntriesTogether];
+  std::size_t size_ = 0;
 };
 
 class OcclusionQueries {
@@ -263,6 +282,7 @@ class OcclusionQueries {
   std::size_t number() const noexcept { return number_; }
   OcclusionSearch search() const noexcept { return {scene_, rays_[number_].ray, end_, light_, *rays_[number_].region}; }
   void answer(std::size_t number, const OcclusionSearch& search) noexcept { occluded_[number] = search.is_occluded(); }
+  void finish() noexcept {}
 
  private:
   const Scene& scene_;
@@ -282,9 +302,10 @@ void answer_all(const Scene& scene, Queries queries) noexcept {
       Search search = queries.search();
       queries.answer(queries.number(), search);
     }
-    return;
+  } else {
+    Stream<Search, Queries>(scene.bvh(), queries).run();
   }
-  Stream<Search, Queries>(scene.bvh(), queries).run();
+  queries.finish();
 }
 
 }  // namespace
