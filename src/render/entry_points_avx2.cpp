@@ -53,8 +53,10 @@ Entry4 entry_of(const Vec3x4& origin, const Vec3x4& direction, const Vec3x4& cen
                                   in_lanes([&](const SureEntry& e) { return scene.sphere(e.sphere).center; }),
                                   Double4::of(radius(0), radius(1), radius(2), radius(3)));
 
-    const Vec3Lanes point(entry.point);
-    const Vec3Lanes normal(entry.normal);
+    Vec3Lanes point;
+    Vec3Lanes normal;
+    entry.point.store(point);
+    entry.normal.store(normal);
     for (std::size_t lane = 0; lane != size; ++lane) {
       const auto& [ray, sphere] = in_lane(lane);
       const bool is_plain = (entry.is_plain.bits() >> lane & 1) != 0;

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "render/target_avx2.h"
-#include "render/vec3.h"
+#include "render/vec3_lanes.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -99,12 +99,12 @@ inline Int8 lanes_in_order(LaneMask mask, unsigned octant) noexcept {
 struct Double4 {
   __m256d v;
 
-  static Double4 load(const double* p) noexcept { return {_mm256_loadu_pd(p)}; }
+  static Double4 load(const Lanes& a) noexcept { return {_mm256_loadu_pd(a.at)}; }
   static Double4 all(double x) noexcept { return {_mm256_set1_pd(x)}; }
   static Double4 of(double a, double b, double c, double d) noexcept { return {_mm256_setr_pd(a, b, c, d)}; }
   static Double4 of(const Vec3& p) noexcept { return of(p.x, p.y, p.z, 1); }
   Double4 size() const noexcept { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), v)}; }
-  void store(double* p) const noexcept { _mm256_storeu_pd(p, v); }
+  void store(Lanes& a) const noexcept { _mm256_storeu_pd(a.at, v); }
   /// Rounds to nearest and writes four.
   void store(float* p) const noexcept { _mm_storeu_ps(p, _mm256_cvtpd_ps(v)); }
 };
@@ -143,7 +143,7 @@ inline Double4 fused_minus(Double4 a, Double4 b, Double4 c) noexcept {
   return {_mm256_fnmadd_pd(a.v, b.v, c.v)};
 }
 
-/// Lanes of Double4 for which something holds.
+/// Lanes of Double4 for which something holds: by their sign bits.
 struct Mask4 {
   __m256d v;
 
@@ -156,10 +156,38 @@ inline Mask4 operator<(Double4 a, Double4 b) noexcept {
 inline Mask4 operator&(Mask4 a, Mask4 b) noexcept {
   return {_mm256_and_pd(a.v, b.v)};
 }
+inline Mask4 operator|(Mask4 a, Mask4 b) noexcept {
+  return {_mm256_or_pd(a.v, b.v)};
+}
+inline Mask4 operator!(Mask4 a) noexcept {
+  return {_mm256_xor_pd(a.v, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)))};
+}
 /// a in the lanes of `mask`, else b.
 inline Double4 where(Mask4 mask, Double4 a, Double4 b) noexcept {
   return {_mm256_blendv_pd(b.v, a.v, mask.v)};
 }
+/// Whether numbers >= 0 are whole, and small enough for Whole4.
+inline Mask4 are_small_wholes(Double4 a) noexcept {
+  return Mask4{_mm256_cmp_pd(_mm256_floor_pd(a.v), a.v, _CMP_EQ_OQ)} & (a < Double4::all(0x1p31));
+}
+
+/// Four whole numbers >= 0.
+struct Whole4 {
+  __m256i v;
+
+  static Whole4 of(Double4 a) noexcept { return {_mm256_cvtepi32_epi64(_mm256_cvttpd_epi32(a.v))}; }
+};
+
+inline bool any(Whole4 a) noexcept {
+  return _mm256_testz_si256(a.v, a.v) == 0;
+}
+inline Mask4 are_odd(Whole4 a) noexcept {
+  return {_mm256_castsi256_pd(_mm256_slli_epi64(a.v, 63))};
+}
+inline Whole4 halved(Whole4 a) noexcept {
+  return {_mm256_srli_epi64(a.v, 1)};
+}
+
 inline Double4 clamp(Double4 a, double farthest) noexcept {
   return {_mm256_max_pd(_mm256_set1_pd(-farthest), _mm256_min_pd(a.v, _mm256_set1_pd(farthest)))};
 }

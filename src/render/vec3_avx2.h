@@ -3,6 +3,7 @@
 
 #include "render/exact.h"
 #include "render/lanes_avx2.h"
+#include "render/vec3_lanes.h"
 
 #if defined(__x86_64__)
 
@@ -16,9 +17,17 @@ struct Vec3x4 {
   Double4 y;
   Double4 z;
 
+  static Vec3x4 load(const Vec3Lanes& a) noexcept {
+    return {Double4::load(a.x), Double4::load(a.y), Double4::load(a.z)};
+  }
   static Vec3x4 all(const Vec3& a) noexcept { return {Double4::all(a.x), Double4::all(a.y), Double4::all(a.z)}; }
   static Vec3x4 of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
     return {Double4::of(a.x, b.x, c.x, d.x), Double4::of(a.y, b.y, c.y, d.y), Double4::of(a.z, b.z, c.z, d.z)};
+  }
+  void store(Vec3Lanes& a) const noexcept {
+    x.store(a.x);
+    y.store(a.y);
+    z.store(a.z);
   }
 };
 
@@ -28,11 +37,17 @@ inline Vec3x4 operator+(const Vec3x4& a, const Vec3x4& b) noexcept {
 inline Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) noexcept {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+inline Vec3x4 operator-(const Vec3x4& a) noexcept {
+  return {-a.x, -a.y, -a.z};
+}
 inline Vec3x4 operator*(Double4 s, const Vec3x4& a) noexcept {
   return {a.x * s, a.y * s, a.z * s};
 }
 inline Vec3x4 operator/(const Vec3x4& a, Double4 s) noexcept {
   return {a.x / s, a.y / s, a.z / s};
+}
+inline Vec3x4 where(Mask4 mask, const Vec3x4& a, const Vec3x4& b) noexcept {
+  return {where(mask, a.x, b.x), where(mask, a.y, b.y), where(mask, a.z, b.z)};
 }
 inline Double4 dot(const Vec3x4& a, const Vec3x4& b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -76,20 +91,6 @@ inline ExactDifference4 exact_difference(const Vec3x4& a, const Vec3x4& b) noexc
   const TwoTerm4 z = two_diff(a.z, b.z);
   return {{x.hi, y.hi, z.hi}, {x.lo, y.lo, z.lo}};
 }
-
-/// Four vectors in memory, lane by lane.
-struct Vec3Lanes {
-  double x[4];
-  double y[4];
-  double z[4];
-
-  explicit Vec3Lanes(const Vec3x4& a) noexcept {
-    a.x.store(x);
-    a.y.store(y);
-    a.z.store(z);
-  }
-  Vec3 operator[](std::size_t lane) const noexcept { return {x[lane], y[lane], z[lane]}; }
-};
 
 }  // namespace tessera::render::avx2
 TESSERA_END_AVX2

@@ -7,6 +7,16 @@
 #include "render/vertex.h"
 
 namespace tessera::render {
+namespace {
+
+/// The first of a buffer that only grows; what it held before is not cleared.
+template <class T>
+std::span<T> first_of(std::vector<T>& buffer, std::size_t size) {
+  if (buffer.size() < size) buffer.resize(size);
+  return std::span(buffer).first(size);
+}
+
+}  // namespace
 
 void Wavefront::trace(std::span<const RayInRegion> camera_rays, std::span<Rgb> radiances, RayCounts& counts,
                       const std::function<void()>& between_slices) {
@@ -18,20 +28,18 @@ void Wavefront::trace(std::span<const RayInRegion> camera_rays, std::span<Rgb> r
   counts.primary += rays_.size();
 
   for (std::uint32_t bounce = 0; !rays_.empty(); ++bounce) {
-    hits_.resize(rays_.size());
-    nearest_hits(scene_, rays_, hits_);
+    nearest_hits(scene_, rays_, first_of(hits_, rays_.size()));
     between_slices();
     meet_surfaces(radiances);
     for (std::size_t light = 0; light != scene_.data().lights.size(); ++light) {
-      light_surfaces(light, counts);
-      between_slices();
+      if (light_surfaces(light, counts)) between_slices();
     }
     leave_surfaces(bounce == options_.max_bounces, radiances, counts);
   }
 }
 
 void Wavefront::meet_surfaces(std::span<Rgb> radiances) {
-  vertices_.clear();
+  vertices_.clear(rays_.size());
   for (std::size_t i = 0; i != rays_.size(); ++i) {
     if (!hits_[i]) {
       radiances[paths_[i]] += weights_[i] * scene_.data().environment.background;
@@ -40,61 +48,82 @@ void Wavefront::meet_surfaces(std::span<Rgb> radiances) {
     const auto& [ray, region] = rays_[i];
     const SurfacePoint& hit = *hits_[i];
     const Material& material = material_of(scene_, hit, cell_of(scene_, hit));
-    Vertex& at = vertices_.emplace_back();
-    at.path = paths_[i];
-    at.region = region;
-    at.hit = hit;
-    at.material = &material;
-    at.normal = facing_normal(scene_, hit, *region);
-    at.incoming = ray.direction;
-    at.to_viewer = to_viewer_of(material, ray.direction);
-    at.weight = weights_[i];
-    at.local = ambient_radiance(scene_, material);
+    vertices_.add({.ray = static_cast<std::uint32_t>(i),
+                   .material = &material,
+                   .point = hit.point,
+                   .normal = facing_normal(scene_, hit, *region),
+                   .incoming = ray.direction,
+                   .local = ambient_radiance(scene_, material)});
   }
+  turn_to_viewers(scene_.kernel(), vertices_);
 }
 
-void Wavefront::light_surfaces(std::size_t light_index, RayCounts& counts) {
-  const Light& light = scene_.data().lights[light_index];
-  light_rays_.clear();
-  lit_vertices_.clear();
-  for (std::size_t i = 0; i != vertices_.size(); ++i) {
-    const Vertex& at = vertices_[i];
-    if (at.material->reflection >= 1 || !shows_light(*at.material)) continue;
-    const Vec3 way = way_to(light, at.hit.point);
-    if (!(dot(at.normal, way) > 0) || !is_on_path_side(scene_, light_index, at.hit.surface, *at.region)) continue;
-    light_rays_.push_back({ray_to_light(at.hit, way), at.region});
-    lit_vertices_.push_back(i);
+bool Wavefront::light_surfaces(std::size_t light_index, RayCounts& counts) {
+  const auto shares = first_of(shares_, vertices_.lanes().size());
+  light_up(scene_.kernel(), scene_.data().lights[light_index], options_.shade, vertices_, shares);
+  list_lit_vertices(light_index);
+  if (lit_.empty()) return false;
+
+  const auto rays = first_of(light_rays_, lit_.size());
+  const auto occluded = first_of(occluded_, lit_.size());
+  for (std::size_t i = 0; i != lit_.size(); ++i) {
+    const auto [group, lane] = lit_[i];
+    const std::size_t from = vertices_.lanes()[group].ray[lane];
+    rays[i] = {ray_to_light(*hits_[from], shares[group].way[lane]), rays_[from].region};
   }
-  counts.shadow += light_rays_.size();
-  occluded_.resize(light_rays_.size());
-  occlusions(scene_, light_rays_, light_index, occluded_);
-  for (std::size_t i = 0; i != light_rays_.size(); ++i) {
-    if (occluded_[i] != 0) continue;
-    Vertex& at = vertices_[lit_vertices_[i]];
-    const Vec3 to_light = normalized(light_rays_[i].ray.direction);
-    at.local += reflected_light(*at.material, light.color, options_.shade, at.normal, to_light, at.to_viewer);
+  counts.shadow += rays.size();
+  occlusions(scene_, rays, light_index, occluded);
+  for (std::size_t i = 0; i != lit_.size(); ++i) {
+    if (occluded[i] != 0) continue;
+    const auto [group, lane] = lit_[i];
+    const Vec3 share = shares[group].share[lane];
+    vertices_.lanes()[group].local[lane] += {share.x, share.y, share.z};
   }
+  return true;
 }
 
+// Without a branch on which they are, for that cannot be predicted.
+void Wavefront::list_lit_vertices(std::size_t light_index) {
+  lit_.resize(vertices_.size());
+  std::size_t size = 0;
+  for (std::uint32_t i = 0; i != vertices_.size(); ++i) {
+    lit_[size] = {i / kLanes, i % kLanes};
+    size += shares_[i / kLanes].shines[i % kLanes];
+  }
+  lit_.resize(size);
+  if (scene_.data().planes.empty()) return;
+  std::erase_if(lit_, [&](const VertexPlace& vertex) {
+    const std::size_t from = vertices_.lanes()[vertex.group].ray[vertex.lane];
+    return !is_on_path_side(scene_, light_index, hits_[from]->surface, *rays_[from].region);
+  });
+}
+
+// The rays that go on take the places of those that have met surfaces, of which there were no fewer.
 void Wavefront::leave_surfaces(bool is_last, std::span<Rgb> radiances, RayCounts& counts) {
-  rays_.clear();
-  paths_.clear();
-  weights_.clear();
-  for (const Vertex& at : vertices_) {
-    Rgb& radiance = radiances[at.path];
-    const double k = at.material->reflection;
-    if (k < 1) radiance += at.weight * (1 - k) * at.local;
-    const double weight = at.weight * k;
+  std::size_t size = 0;
+  for (std::size_t i = 0; i != vertices_.size(); ++i) {
+    const VertexLanes& at = vertices_.lanes()[i / kLanes];
+    const std::size_t lane = i % kLanes;
+    const std::size_t from = at.ray[lane];
+    Rgb& radiance = radiances[paths_[from]];
+    const double k = at.material[lane]->reflection;
+    if (k < 1) radiance += weights_[from] * (1 - k) * at.local[lane];
+    const double weight = weights_[from] * k;
     if (weight < kLeastWeight) continue;
     if (is_last) {
       radiance += weight * scene_.data().environment.background;
       continue;
     }
-    rays_.push_back({mirrored_ray(at.hit, at.normal, at.incoming), at.region});
-    paths_.push_back(at.path);
-    weights_.push_back(weight);
+    const auto& [ray, region] = rays_[from];
+    rays_[size] = {mirrored_ray(*hits_[from], at.normal[lane], ray.direction), region};
+    paths_[size] = paths_[from];
+    weights_[size] = weight;
+    ++size;
   }
-  counts.mirror += rays_.size();
+  rays_.resize(size);
+  paths_.resize(size);
+  weights_.resize(size);
+  counts.mirror += size;
 }
 
 }  // namespace tessera::render

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "render/shading.h"
 #include "render/stream.h"
 #include "render/tracer.h"
 
@@ -19,40 +20,36 @@ class Wavefront {
   /// requires: scene outlives the wavefront
   Wavefront(const Scene& scene, const TraceOptions& options) : scene_(scene), options_(options) {}
 
-  /// radiance_along of every camera ray. Calls `between_slices` after each step of all paths.
+  /// radiance_along of every camera ray. Calls `between_slices` after each step that took rays.
   /// shapes:  radiances.size() = camera_rays.size(); some hundreds at a time are enough
   void trace(std::span<const RayInRegion> camera_rays, std::span<Rgb> radiances, RayCounts& counts,
              const std::function<void()>& between_slices);
 
  private:
-  /// A path at the surface that it met last.
-  struct Vertex {
-    std::size_t path;
-    const Region* region;
-    SurfacePoint hit;
-    const Material* material;
-    Vec3 normal;     ///< unit, on the side that the path is on
-    Vec3 incoming;   ///< direction of the ray that met the surface
-    Vec3 to_viewer;  ///< unit, where a highlight needs it
-    double weight;   ///< of what is seen here in the path's radiance
-    Rgb local;
+  /// Which vertex: its lane of a group.
+  struct VertexPlace {
+    std::uint32_t group;
+    std::uint32_t lane;
   };
 
   void meet_surfaces(std::span<Rgb> radiances);
-  void light_surfaces(std::size_t light, RayCounts& counts);
+  /// Returns whether any ray was sent to the light.
+  bool light_surfaces(std::size_t light, RayCounts& counts);
+  void list_lit_vertices(std::size_t light);
   void leave_surfaces(bool is_last, std::span<Rgb> radiances, RayCounts& counts);
 
   const Scene& scene_;
   TraceOptions options_;
-  // Paths still on their way: their rays, and which they are.
+  // Paths still on their way: their rays, which they are, what is seen along them weighs, and where they meet what.
   std::vector<RayInRegion> rays_;
   std::vector<std::size_t> paths_;
   std::vector<double> weights_;
   std::vector<std::optional<SurfacePoint>> hits_;
-  std::vector<Vertex> vertices_;
+  Vertices vertices_;
+  std::vector<LightLanes> shares_;
   // Rays to one light: from which vertices, and whether something is in the way.
   std::vector<RayInRegion> light_rays_;
-  std::vector<std::size_t> lit_vertices_;
+  std::vector<VertexPlace> lit_;
   std::vector<std::uint8_t> occluded_;
 };
 

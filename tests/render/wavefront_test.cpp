@@ -167,6 +167,25 @@ BOOST_AUTO_TEST_CASE(path_between_two_perfect_mirrors_takes_every_bounce) {
   }
 }
 
+// One after the camera rays, and one after each batch of rays to a light, if there is any.
+BOOST_AUTO_TEST_CASE(wavefront_pauses_after_steps_that_took_rays) {
+  SceneData data;
+  add_sphere(data, {0, 0, 0}, 1);
+  for (const double z : {5.0, -5.0, 6.0}) add_point_light(data, {0, 0, z});
+  for (const auto& [kernel, name] : supported_kernels()) {
+    const Scene scene(data, kernel);
+    for (const bool hits : {false, true}) {
+      CameraPaths paths;
+      paths.add(scene, {0, 0, 4}, {0, hits ? 0.0 : 1.0, -1});
+      Rgb radiance[1];
+      RayCounts counts;
+      int pauses = 0;
+      Wavefront(scene, {}).trace(paths.rays, radiance, counts, [&] { ++pauses; });
+      BOOST_TEST(pauses == (hits ? 3 : 1), name);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(tiles_hold_the_pixels_that_are_traced_one_by_one) {
   for (const auto& [kernel, name] : supported_kernels()) {
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
