@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/encode.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include "render/random.h"
 
@@ -95,6 +97,37 @@ BOOST_AUTO_TEST_CASE(srgb_curve_has_its_known_values) {
   BOOST_TEST(in_8_bits(0.5, Transfer::srgb) == 188);
   BOOST_TEST(in_8_bits(0.18, Transfer::srgb) == 118);
   BOOST_TEST(in_16_bits(0.5, Transfer::srgb) == 48192);
+}
+
+// Number n begins where the curve is (n - 1/2) / top: at every step and right below it, and wherever a number's
+// leading 14 bits change.
+BOOST_AUTO_TEST_CASE(srgb_numbers_change_at_their_steps_alone) {
+  const auto wrong_numbers = [](int top, auto&& number_of) {
+    std::vector<double> steps;
+    for (int n = 1; n <= top; ++n) steps.push_back(linear_from_srgb((n - 0.5) / top));
+    int wrong = 0;
+    for (int n = 1; n <= top; ++n) {
+      const double step = steps[static_cast<std::size_t>(n - 1)];
+      wrong += number_of(std::nextafter(step, 0)) != n - 1;
+      wrong += number_of(step) != n;
+      wrong += number_of(std::nextafter(step, 1)) != n;
+    }
+    for (int exponent = -30; exponent != 0; ++exponent) {
+      for (int i = 0; i != 1 << 13; ++i) {
+        const double start = std::ldexp(1 + std::ldexp(i, -13), exponent);
+        for (const double x : {std::nextafter(start, 0), start}) {
+          wrong += number_of(x) != std::upper_bound(steps.begin(), steps.end(), x) - steps.begin();
+        }
+      }
+    }
+    return wrong;
+  };
+  BOOST_TEST(wrong_numbers(255, [](double x) { return in_8_bits(x, Transfer::srgb); }) == 0);
+  BOOST_TEST(wrong_numbers(65535, [](double x) { return in_16_bits(x, Transfer::srgb); }) == 0);
+  for (const double small : {0.0, 5e-324, 1e-300, 0x1p-22}) {
+    BOOST_TEST(in_8_bits(small, Transfer::srgb) == 0);
+    BOOST_TEST(in_16_bits(small, Transfer::srgb) == 0);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(srgb_curve_has_no_visible_jump_and_never_falls) {
