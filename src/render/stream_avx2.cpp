@@ -34,7 +34,9 @@ struct Traversal {
   /// Under everything on the stack; never superfluous.
   static constexpr std::uint32_t kEnd = ~std::uint32_t{0};
 
-  Traversal(const TreeSpace& space, std::size_t number, const Search& asked) noexcept : search(asked), query(number) {
+  template <class Queries>
+  Traversal(const TreeSpace& space, const Queries& queries) noexcept
+      : search(queries.search()), query(queries.number()) {
     set_tree_ray(space);
     latest = ray.t_of(search.latest());
     from = search.ray().from;
@@ -161,7 +163,7 @@ class Stream {
   }
 
   void start(std::size_t slot) noexcept {
-    new (storage_ + slot * sizeof(Traversal<Search>)) Traversal<Search>(space_, queries_.number(), queries_.search());
+    new (storage_ + slot * sizeof(Traversal<Search>)) Traversal<Search>(space_, queries_);
   }
 
   /// Takes every ray one step on.
