@@ -29,7 +29,7 @@ CameraRays::CameraRays(const Camera& camera, std::uint32_t width, std::uint32_t 
 
 Ray CameraRays::through(double x, double y) const noexcept {
   // In half pixels from the middle: exact, and so the same at mirrored places.
-  const Vec3 offset = (2 * x - width_) * right_ + (2 * y - height_) * down_;
+  const Vec3 offset = across(x) * right_ + along(y) * down_;
   if (projection_ == Projection::orthographic) return {eye_ + offset, forward_};
   return {eye_, forward_ + offset};
 }

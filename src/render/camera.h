@@ -20,6 +20,16 @@ class CameraRays {
 
   Projection projection() const noexcept { return projection_; }
 
+  // A perspective ray's direction is forward + across(x) right + along(y) down, the first of length 1 and all of them
+  // perpendicular to each other.
+  const Vec3& eye() const noexcept { return eye_; }
+  const Vec3& forward() const noexcept { return forward_; }
+  const Vec3& right() const noexcept { return right_; }
+  const Vec3& down() const noexcept { return down_; }
+  /// In half pixels from the middle of the picture.
+  double across(double x) const noexcept { return 2 * x - width_; }
+  double along(double y) const noexcept { return 2 * y - height_; }
+
  private:
   Projection projection_;
   Vec3 eye_;

@@ -22,6 +22,7 @@ struct Float8 {
 
   static Float8 load(const float* p) noexcept { return {_mm256_load_ps(p)}; }
   static Float8 all(float x) noexcept { return {_mm256_set1_ps(x)}; }
+  Float8 size() const noexcept { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0F), v)}; }
   void store(float* p) const noexcept { _mm256_storeu_ps(p, v); }
 };
 
@@ -33,6 +34,9 @@ inline Float8 operator-(Float8 a, Float8 b) noexcept {
 }
 inline Float8 operator*(Float8 a, Float8 b) noexcept {
   return {_mm256_mul_ps(a.v, b.v)};
+}
+inline Float8 operator/(Float8 a, Float8 b) noexcept {
+  return {_mm256_div_ps(a.v, b.v)};
 }
 inline LaneMask operator<=(Float8 a, Float8 b) noexcept {
   return static_cast<LaneMask>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
@@ -52,11 +56,27 @@ inline Float8 fused_minus(Float8 a, Float8 b, Float8 c) noexcept {
   return {_mm256_fnmadd_ps(a.v, b.v, c.v)};
 }
 
+inline Float8 sqrt(Float8 a) noexcept {
+  return {_mm256_sqrt_ps(a.v)};
+}
+inline Float8 floor(Float8 a) noexcept {
+  return {_mm256_floor_ps(a.v)};
+}
+inline Float8 ceil(Float8 a) noexcept {
+  return {_mm256_ceil_ps(a.v)};
+}
+/// c where a < b, else d.
+inline Float8 where_less(Float8 a, Float8 b, Float8 c, Float8 d) noexcept {
+  return {_mm256_blendv_ps(d.v, c.v, _mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ))};
+}
+
 struct Int8 {
   __m256i v;
 
   static Int8 load(const void* p) noexcept { return {_mm256_load_si256(static_cast<const __m256i*>(p))}; }
   static Int8 all(std::uint32_t x) noexcept { return {_mm256_set1_epi32(static_cast<int>(x))}; }
+  /// Of whole numbers.
+  static Int8 of(Float8 a) noexcept { return {_mm256_cvttps_epi32(a.v)}; }
   void store(void* p) const noexcept { _mm256_storeu_si256(static_cast<__m256i*>(p), v); }
 };
 
@@ -65,6 +85,11 @@ inline Int8 picked(Int8 a, Int8 lanes) noexcept {
 }
 inline Float8 picked(Float8 a, Int8 lanes) noexcept {
   return {_mm256_permutevar8x32_ps(a.v, lanes.v)};
+}
+/// c where a < b, else d.
+inline Int8 where_less(Float8 a, Float8 b, Int8 c, Int8 d) noexcept {
+  const __m256 less = _mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ);
+  return {_mm256_castps_si256(_mm256_blendv_ps(_mm256_castsi256_ps(d.v), _mm256_castsi256_ps(c.v), less))};
 }
 inline LaneMask lanes_equal(Int8 a, std::uint32_t b) noexcept {
   const __m256i equal = _mm256_cmpeq_epi32(a.v, _mm256_set1_epi32(static_cast<int>(b)));
@@ -99,7 +124,8 @@ inline Int8 lanes_in_order(LaneMask mask, unsigned octant) noexcept {
 struct Double4 {
   __m256d v;
 
-  static Double4 load(const Lanes& a) noexcept { return {_mm256_loadu_pd(a.at)}; }
+  static Double4 load(const double* p) noexcept { return {_mm256_loadu_pd(p)}; }
+  static Double4 load(const Lanes& a) noexcept { return load(a.at); }
   static Double4 all(double x) noexcept { return {_mm256_set1_pd(x)}; }
   static Double4 of(double a, double b, double c, double d) noexcept { return {_mm256_setr_pd(a, b, c, d)}; }
   static Double4 of(const Vec3& p) noexcept { return of(p.x, p.y, p.z, 1); }

@@ -24,6 +24,12 @@ constexpr std::uint64_t kSliceRays = 256;
 constexpr std::uint32_t kBlockSide = 16;
 constexpr std::size_t kPathsTogether = std::size_t{kBlockSide} * kBlockSide;
 
+/// The same of rays whose first spheres are drawn.
+constexpr std::uint32_t kRasterSide = avx2::Raster::kSide;
+constexpr std::size_t kRasterRays = std::size_t{kRasterSide} * kRasterSide;
+/// Blocks with nothing to see take a thirtieth of a slice.
+constexpr std::uint32_t kQuietBlocks = 16;
+
 /// A ray in quad precision takes more than a slice.
 std::uint64_t slice_rays_of(Tracer tracer) {
   return tracer == Tracer::reference ? 1 : kSliceRays;
@@ -59,8 +65,16 @@ RayCounts TileRenderer::render(const Rect& tile, const TilePixels& out,
   if (tracer_ == Tracer::reference || !colors_alone) return render_one_by_one(tile, out, between_slices);
   RayCounts counts;
   Wavefront wavefront(scene_, trace_options_);
-  for (const Rect& block : tile_grid(tile, kBlockSide, kBlockSide)) {
-    const std::vector<Rgb> pixels = block_pixels(block, wavefront, counts, between_slices);
+  std::optional<avx2::Raster> raster;
+  if (can_draw()) raster.emplace(scene_, camera_, *region_);
+  std::uint32_t quiet_blocks = 0;
+  const std::uint32_t side = raster ? kRasterSide / grid_ : kBlockSide;
+  for (const Rect& block : tile_grid(tile, side, side)) {
+    const bool is_drawn = raster && drawing_.pays();
+    if (raster && !is_drawn) drawing_.skip(block.pixels() * grid_ * grid_);
+    const std::vector<Rgb> pixels = is_drawn
+                                        ? drawn_pixels(block, *raster, wavefront, counts, between_slices, quiet_blocks)
+                                        : block_pixels(block, wavefront, counts, between_slices);
     const Rgb* pixel = pixels.data();
     for (std::uint32_t y = block.y - tile.y; y != block.y - tile.y + block.height; ++y) {
       const std::size_t first = std::size_t{y} * tile.width + (block.x - tile.x);
@@ -104,6 +118,66 @@ std::vector<Rgb> TileRenderer::block_pixels(const Rect& block, Wavefront& wavefr
   return pixels;
 }
 
+bool TileRenderer::can_draw() const noexcept {
+  return scene_.kernel() == Kernel::avx2 && region_ && grid_ <= kRasterSide;
+}
+
+std::vector<Rgb> TileRenderer::drawn_pixels(const Rect& block, avx2::Raster& raster, Wavefront& wavefront,
+                                            RayCounts& counts, const std::function<void()>& between_slices,
+                                            std::uint32_t& quiet_blocks) const {
+  std::array<double, kRasterSide> x;
+  std::array<double, kRasterSide> y;
+  for (std::uint32_t i = 0; i != block.width * grid_; ++i) x[i] = sample_place(block.x + i / grid_, i % grid_);
+  for (std::uint32_t i = 0; i != block.height * grid_; ++i) y[i] = sample_place(block.y + i / grid_, i % grid_);
+  const bool any =
+      raster.draw(std::span(x).first(block.width * grid_), std::span(y).first(block.height * grid_), drawing_);
+
+  // A path that meets nothing ends here, as it does in a wavefront.
+  const bool is_sky = scene_.visible_planes().empty() && region_->walls().empty();
+  Rgb sky;
+  sky += 1.0 * scene_.data().environment.background;
+  std::array<Rgb, kRasterRays> radiances;
+  std::array<SurfaceId, kRasterRays> first_spheres;
+  std::array<std::uint32_t, kRasterRays> sample_of_ray;
+  std::vector<RayInRegion> rays;
+  const std::uint32_t samples = grid_ * grid_;
+  if (any || !is_sky) rays.reserve(block.pixels() * samples);
+  std::uint32_t count = 0;
+  const auto add_pixel = [&](std::uint32_t column, std::uint32_t row) {
+    for (std::uint32_t sample = 0; sample != samples; ++sample, ++count) {
+      const SurfaceId sphere =
+          any ? raster.first_sphere(column * grid_ + sample % grid_, row * grid_ + sample / grid_) : SurfaceId::none;
+      if (sphere == SurfaceId::none && is_sky) {
+        radiances[count] = sky;
+        continue;
+      }
+      first_spheres[rays.size()] = sphere;
+      sample_of_ray[rays.size()] = count;
+      rays.push_back({camera_ray(block.x + column, block.y + row, sample), &*region_});
+    }
+  };
+  for (std::uint32_t row = 0; row != block.height; ++row) {
+    for (std::uint32_t column = 0; column != block.width; ++column) add_pixel(column, row);
+  }
+  counts.primary += count - rays.size();
+  if (!rays.empty()) {
+    std::array<Rgb, kRasterRays> seen;
+    wavefront.trace(rays, std::span(seen).first(rays.size()), counts, between_slices,
+                    std::span(first_spheres).first(rays.size()));
+    for (std::size_t ray = 0; ray != rays.size(); ++ray) radiances[sample_of_ray[ray]] = seen[ray];
+  } else if (++quiet_blocks % kQuietBlocks == 0) {
+    between_slices();
+  }
+
+  std::vector<Rgb> pixels(block.pixels());
+  const Rgb* radiance = radiances.data();
+  for (Rgb& pixel : pixels) {
+    for (std::uint32_t sample = 0; sample != samples; ++sample) pixel += *radiance++;
+    pixel = mean_of_samples(pixel);
+  }
+  return pixels;
+}
+
 RayCounts TileRenderer::render_one_by_one(const Rect& tile, const TilePixels& out,
                                           const std::function<void()>& between_slices) const {
   RayCounts counts;
@@ -142,7 +216,7 @@ TileRenderer::Pixel TileRenderer::pixel(std::uint32_t x, std::uint32_t y, const 
 }
 
 Ray TileRenderer::camera_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const noexcept {
-  return camera_.through(x + (sample % grid_ + 0.5) / grid_, y + (sample / grid_ + 0.5) / grid_);
+  return camera_.through(sample_place(x, sample % grid_), sample_place(y, sample / grid_));
 }
 
 Region TileRenderer::region_of(const Ray& ray) const {

@@ -10,6 +10,7 @@
 
 #include "render/camera.h"
 #include "render/image.h"
+#include "render/raster.h"
 #include "render/region.h"
 #include "render/signature.h"
 #include "render/tracer.h"
@@ -35,6 +36,7 @@ struct TilePixels {
 
 class Wavefront;
 
+/// For one thread: it remembers how it fared, which never changes a pixel.
 class TileRenderer {
  public:
   /// requires: scene has a camera (see framed_camera) and outlives the renderer
@@ -53,12 +55,19 @@ class TileRenderer {
   /// Many paths at once, where nobody watches them.
   std::vector<Rgb> block_pixels(const Rect& block, Wavefront& wavefront, RayCounts& counts,
                                 const std::function<void()>& between_slices) const;
+  /// The same with first spheres that are drawn. `quiet_blocks` counts those since the last slice in which there is
+  /// nothing to see.
+  std::vector<Rgb> drawn_pixels(const Rect& block, avx2::Raster& raster, Wavefront& wavefront, RayCounts& counts,
+                                const std::function<void()>& between_slices, std::uint32_t& quiet_blocks) const;
+  bool can_draw() const noexcept;
   RayCounts render_one_by_one(const Rect& tile, const TilePixels& out,
                               const std::function<void()>& between_slices) const;
   Pixel pixel(std::uint32_t x, std::uint32_t y, const TilePixels& asked, RayCounts& counts) const;
   void add_sample(const Ray& ray, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const;
   Rgb traced(const Ray& ray, const Region& region, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const;
 
+  /// Where on an axis of the picture a sample of its pixel i is.
+  double sample_place(std::uint32_t i, std::uint32_t sample) const noexcept { return i + (sample + 0.5) / grid_; }
   /// shapes:  sample < samples per pixel, row by row on their grid
   Ray camera_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const noexcept;
   Region region_of(const Ray& ray) const;
@@ -72,6 +81,7 @@ class TileRenderer {
   std::uint32_t grid_;            ///< samples per pixel on each axis
   Placement eye_placement_;       ///< perspective only
   std::optional<Region> region_;  ///< perspective, where it is the same for every ray
+  mutable DrawingRecord drawing_;
 };
 
 }  // namespace tessera::render

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "render/intersect.h"
+#include "render/raster.h"
 #include "render/vertex.h"
 
 namespace tessera::render {
@@ -19,7 +20,7 @@ std::span<T> first_of(std::vector<T>& buffer, std::size_t size) {
 }  // namespace
 
 void Wavefront::trace(std::span<const RayInRegion> camera_rays, std::span<Rgb> radiances, RayCounts& counts,
-                      const std::function<void()>& between_slices) {
+                      const std::function<void()>& between_slices, std::span<const SurfaceId> first_spheres) {
   rays_.assign(camera_rays.begin(), camera_rays.end());
   paths_.resize(rays_.size());
   std::iota(paths_.begin(), paths_.end(), std::size_t{0});
@@ -28,7 +29,12 @@ void Wavefront::trace(std::span<const RayInRegion> camera_rays, std::span<Rgb> r
   counts.primary += rays_.size();
 
   for (std::uint32_t bounce = 0; !rays_.empty(); ++bounce) {
-    nearest_hits(scene_, rays_, first_of(hits_, rays_.size()));
+    const auto hits = first_of(hits_, rays_.size());
+    if (bounce == 0 && !first_spheres.empty()) {
+      avx2::nearest_hits(scene_, rays_, first_spheres, hits);
+    } else {
+      nearest_hits(scene_, rays_, hits);
+    }
     between_slices();
     meet_surfaces(radiances);
     for (std::size_t light = 0; light != scene_.data().lights.size(); ++light) {

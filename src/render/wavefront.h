@@ -21,9 +21,10 @@ class Wavefront {
   Wavefront(const Scene& scene, const TraceOptions& options) : scene_(scene), options_(options) {}
 
   /// radiance_along of every camera ray. Calls `between_slices` after each step that took rays.
-  /// shapes:  radiances.size() = camera_rays.size(); some hundreds at a time are enough
+  /// shapes:  radiances.size() = camera_rays.size(); some hundreds at a time are enough. first_spheres: what is known
+  ///          of each ray as in raster.h, or empty
   void trace(std::span<const RayInRegion> camera_rays, std::span<Rgb> radiances, RayCounts& counts,
-             const std::function<void()>& between_slices);
+             const std::function<void()>& between_slices, std::span<const SurfaceId> first_spheres = {});
 
  private:
   /// Which vertex: its lane of a group.

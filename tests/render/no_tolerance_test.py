@@ -6,8 +6,9 @@ import pathlib
 import re
 import sys
 
-TRACING = """bounded bvh certified decide dyadic exact exact_formula intersect order path_observer phong plane ray ray_counts
-region scene signature signature_observer sphere tile_renderer tracer vec3""".split()
+TRACING = """bounded bvh certified decide dyadic exact exact_formula frustum frustum_avx2 intersect order
+path_observer phong plane raster raster_avx2 ray ray_counts region scene signature signature_observer sphere
+tile_renderer tracer vec3""".split()
 SMALL = re.compile(r"\b\d+(?:\.\d*)?e-\d+|\b0\.0\d*", re.IGNORECASE)
 NAMED = re.compile(r"epsilon|\beps\b|\bt_?min\b|tolerance|\bbias\b|\bnudge", re.IGNORECASE)
 
