@@ -31,6 +31,7 @@ void render_and_finish(RenderLead& lead, const RenderOptions& options, const Tea
   Progress progress(options.quiet ? ProgressStyle::none : options.progress, surroundings(), job.area.pixels());
   const auto accept = [&](scheduler::TaskId task, std::span<const std::byte> delivered) {
     mosaic.accept(task, delivered);
+    lead.pack(mosaic);
     progress.advance(tiles[index_of(task)].pixels());
   };
   const scheduler::RunRecord record = run(plan, work, accept);

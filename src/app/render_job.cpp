@@ -126,6 +126,7 @@ Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
       area_(job.area),
       samples_(job.scene.image.samples),
       tiles_(tiles),
+      missing_(job.area.height, job.area.width),
       rays_(tiles.size()) {}
 
 void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered) {
@@ -145,6 +146,9 @@ void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered
     layer = place(tile, sizeof(render::Signature), layer, to.data());
   }
   if (layers_.errors) place(tile, sizeof(float), layer, std::as_writable_bytes(std::span(errors_)).data());
+
+  for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y) missing_[y] -= tile.width;
+  while (complete_rows_ != area_.height && missing_[complete_rows_] == 0) ++complete_rows_;
 }
 
 const std::byte* Mosaic::place(const render::Rect& tile, std::size_t pixel_size, const std::byte* from,

@@ -72,6 +72,8 @@ class Mosaic {
   void accept(scheduler::TaskId task, std::span<const std::byte> delivered);
 
   const render::Image& image() const noexcept { return image_; }
+  /// Rows at the top of the picture that are there to their last pixel.
+  std::uint32_t complete_rows() const noexcept { return complete_rows_; }
   /// Without pixels where the job does not ask for them.
   const render::SignatureImage& signatures() const noexcept { return signatures_; }
   /// The error bound of each pixel, row by row from the top; empty where the job does not ask for it.
@@ -90,6 +92,8 @@ class Mosaic {
   render::Rect area_;
   std::uint64_t samples_;
   std::span<const render::Rect> tiles_;
+  std::vector<std::uint32_t> missing_;  ///< pixels of each row
+  std::uint32_t complete_rows_ = 0;
   std::vector<render::RayCounts> rays_;
 };
 

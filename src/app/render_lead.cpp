@@ -23,6 +23,8 @@ namespace {
 
 constexpr std::uint64_t kMaxTiles = 100'000'000;
 
+const io::PngText kText{{"Software", "Tessera"}};
+
 io::ImageFormat format_of(const std::filesystem::path& output) {
   const auto format = io::image_format_of(output);
   if (!format) {
@@ -123,17 +125,36 @@ void RenderLead::open_outputs() {
                        {"--stats", options_.stats},
                        {"--tile-stats", options_.tile_stats}});
   picture_.emplace(options_.output);
+  if (format_of(options_.output) == io::ImageFormat::png) {
+    png_.emplace(io::PngHeader{job_.area.width, job_.area.height, job_.format, job_.scene.image.transfer}, kText);
+  }
   if (options_.signature) signature_file_.emplace(*options_.signature);
   if (options_.error) error_file_.emplace(*options_.error);
   if (options_.stats) stats_file_.emplace(*options_.stats);
   if (options_.tile_stats) tile_stats_file_.emplace(*options_.tile_stats);
 }
 
+void RenderLead::pack(const Mosaic& mosaic) {
+  if (png_ && team_.ranks > 1) pack_rows(mosaic);
+}
+
+void RenderLead::pack_rows(const Mosaic& mosaic) {
+  const std::size_t row_bytes = mosaic.image().width * bytes_per_pixel(mosaic.image().format);
+  const std::uint32_t complete = mosaic.complete_rows();
+  const std::span<const std::byte> all = mosaic.image().bytes;
+  png_->add_rows(all.subspan(packed_rows_ * row_bytes, (complete - packed_rows_) * row_bytes));
+  packed_rows_ = complete;
+}
+
 void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run,
                         const scheduler::Stopwatch& total) {
   const scheduler::Stopwatch write;
-  const auto format = format_of(options_.output);
-  picture_->write(io::encode_image(format, mosaic.image(), job_.scene.image.transfer, {{"Software", "Tessera"}}));
+  if (png_) {
+    pack_rows(mosaic);
+    picture_->write(std::move(*png_).finish());
+  } else {
+    picture_->write(io::encode_image(format_of(options_.output), mosaic.image(), job_.scene.image.transfer, kText));
+  }
   if (signature_file_) signature_file_->write(io::encode_signatures(mosaic.signatures()));
   if (error_file_) error_file_->write(io::encode_pfm(job_.area.width, job_.area.height, mosaic.errors()));
   stats_.time_s.write = write.seconds();

@@ -10,6 +10,7 @@
 #include "app/report.h"
 #include "app/text_output.h"
 #include "io/output_file.h"
+#include "io/png.h"
 #include "io/stats.h"
 #include "scheduler/record.h"
 #include "scheduler/stopwatch.h"
@@ -29,6 +30,10 @@ class RenderLead {
   /// Phases that are timed elsewhere go in here.
   io::Stats::Times& times() noexcept { return stats_.time_s; }
 
+  /// Packs what is complete of the picture, so that little is left to do at the end. With one rank that is no gain, and
+  /// it would count as rendering.
+  void pack(const Mosaic& mosaic);
+
   /// Writes every output and prints the report; `total` started with the render command.
   /// throws:  io::Error
   void finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run,
@@ -38,6 +43,7 @@ class RenderLead {
   void read_scene();
   void plan_schedule();
   void open_outputs();
+  void pack_rows(const Mosaic& mosaic);
 
   const RenderOptions& options_;
   Team team_;
@@ -45,6 +51,8 @@ class RenderLead {
   io::Stats stats_;
   std::vector<std::string> notes_;
   std::optional<io::OutputFile> picture_;
+  std::optional<io::PngEncoder> png_;  ///< where the picture is to be one
+  std::uint32_t packed_rows_ = 0;
   std::optional<io::OutputFile> signature_file_;
   std::optional<io::OutputFile> error_file_;
   std::optional<TextOutput> stats_file_;

@@ -66,6 +66,26 @@ BOOST_AUTO_TEST_CASE(the_mosaic_refuses_a_delivery_of_another_size) {
   BOOST_CHECK_THROW(mosaic.accept(scheduler::TaskId{0}, short_delivery), std::runtime_error);
 }
 
+BOOST_AUTO_TEST_CASE(complete_rows_end_where_the_first_pixel_is_missing) {
+  RenderJob job = test::small_job();
+  job.area = {3, 5, 20, 12};  // 2 x 2 tiles, the last ones cut
+  job.tile_height = 8;
+  const render::Scene scene(job.scene, job.kernel);
+  const auto tiles = tiles_of(job, 1);
+  const TileWork work(scene, job, tiles);
+  const auto rows_after = [&](const std::vector<std::uint32_t>& order) {
+    Mosaic mosaic(job, tiles);
+    std::vector<std::uint32_t> rows;
+    for (const std::uint32_t i : order) {
+      mosaic.accept(scheduler::TaskId{i}, work(scheduler::TaskId{i}, [] {}));
+      rows.push_back(mosaic.complete_rows());
+    }
+    return rows;
+  };
+  BOOST_TEST((rows_after({0, 1, 2, 3}) == std::vector<std::uint32_t>{0, 8, 8, 12}));
+  BOOST_TEST((rows_after({3, 0, 2, 1}) == std::vector<std::uint32_t>{0, 0, 0, 12}));
+}
+
 BOOST_AUTO_TEST_CASE(layers_find_their_place_in_the_mosaic) {
   RenderJob job = test::small_job();
   const render::Scene scene(job.scene, job.kernel);

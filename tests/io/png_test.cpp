@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/png.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -65,6 +67,34 @@ BOOST_AUTO_TEST_CASE(same_picture_gives_same_bytes_without_a_date) {
   const std::string png = encode_png(image, Transfer::srgb, text);
   BOOST_TEST((png == encode_png(image, Transfer::srgb, text)));
   BOOST_TEST(names_of(png).find("tIME") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(rows_in_any_pieces_give_the_same_bytes) {
+  for (const PixelFormat format : {PixelFormat::rgb8, PixelFormat::rgb16}) {
+    const Image image = random_image(200, 90, format);
+    const std::span<const std::byte> pixels = image.bytes;
+    const std::size_t row = 200 * bytes_per_pixel(format);
+    const std::string whole = encode_png(image, Transfer::srgb, {});
+    for (const std::size_t piece : {1u, 7u, 89u, 90u}) {
+      PngEncoder encoder({200, 90, format, Transfer::srgb}, {});
+      for (std::size_t y = 0; y < 90; y += piece) {
+        encoder.add_rows({});
+        encoder.add_rows(pixels.subspan(y * row, std::min(piece, 90 - y) * row));
+      }
+      BOOST_TEST((std::move(encoder).finish() == whole));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(refuses_rows_that_are_missing_broken_or_too_many) {
+  const PngHeader header{4, 3, PixelFormat::rgb8, Transfer::none};
+  const std::vector<std::byte> rows(5 * 12);
+  PngEncoder encoder(header, {});
+  BOOST_CHECK_THROW(encoder.add_rows(std::span(rows).first(11)), std::invalid_argument);
+  BOOST_CHECK_THROW(encoder.add_rows(std::span(rows).first(4 * 12)), std::invalid_argument);
+  encoder.add_rows(std::span(rows).first(2 * 12));
+  BOOST_CHECK_THROW(encoder.add_rows(std::span(rows).first(2 * 12)), std::invalid_argument);
+  BOOST_CHECK_THROW(std::move(encoder).finish(), std::logic_error);
 }
 
 BOOST_AUTO_TEST_CASE(transfer_decides_about_srgb_and_gama) {
