@@ -2,6 +2,7 @@
 # Each from a Debian 12 package; scripts/install_packages.sh installs them all.
 find_package(MPI REQUIRED COMPONENTS CXX)   # libopenmpi-dev: messages between ranks
 find_package(PNG REQUIRED)                  # libpng-dev: pictures
+find_package(Threads REQUIRED)              # several threads build one tree
 find_package(CLI11 REQUIRED)                # libcli11-dev: the command line
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)  # libtomlplusplus-dev: scenes, with line and column of every value

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "render/ray.h"
 
 namespace tessera::render {
+
+struct Sphere;
 
 /// An axis-aligned box.
 struct Box {
@@ -24,6 +27,9 @@ struct Box {
 
 /// The box of a sphere, a little wider than the sphere: whatever sphere.h computes as hit lies inside.
 Box bounds_of(const Vec3& center, double radius) noexcept;
+
+/// The box of all spheres whose radius is not 0: of those that can be hit.
+Box hittable_bounds(std::span<const Sphere> spheres) noexcept;
 
 /// A ray prepared for box tests: reciprocal direction, and per axis which side of a box is the near one.
 class SlabTest {

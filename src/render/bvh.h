@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "render/box.h"
 #include "render/ray.h"
+#include "render/shared_array.h"
 #include "render/tree_space.h"
 
 // A bounding volume hierarchy over spheres, eight children wide: it finds the few that a ray may meet, and loses none.
@@ -47,7 +47,7 @@ class Bvh {
   static constexpr int kStackSize = kMaxDepth * (kTreeWidth - 1) + 1;
 
   Bvh() = default;
-  Bvh(const TreeSpace& space, std::vector<TreeNode> nodes, std::vector<TreeLeaf> leaves)
+  Bvh(const TreeSpace& space, SharedArray<TreeNode> nodes, SharedArray<TreeLeaf> leaves) noexcept
       : space_(space), nodes_(std::move(nodes)), leaves_(std::move(leaves)) {}
 
   const TreeSpace& space() const noexcept { return space_; }
@@ -71,8 +71,8 @@ class Bvh {
 
  private:
   TreeSpace space_;
-  std::vector<TreeNode> nodes_;
-  std::vector<TreeLeaf> leaves_;
+  SharedArray<TreeNode> nodes_;
+  SharedArray<TreeLeaf> leaves_;
 };
 
 /// Whether the ray meets a child's box before `t_max`, and if so where it enters.

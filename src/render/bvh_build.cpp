@@ -3,301 +3,110 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <limits>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "render/parallel_for.h"
+#include "render/sah_split.h"
 
 namespace tessera::render {
 namespace {
 
-constexpr std::size_t kMaxBins = 16;
 constexpr std::size_t kLeafSize = kTreeWidth;
 // From here on ranges are halved: 2^32 spheres in leaves of eight need ten more levels, which stays within kMaxDepth.
 constexpr int kHalvingDepth = 20;
 static_assert(kHalvingDepth + 10 < Bvh::kMaxDepth);
 
-/// x, y, z and a lane to spare: one register.
-using Float4 = float __attribute__((vector_size(16)));
+constexpr std::size_t kChunk = std::size_t{1} << 14;          ///< spheres that a thread prepares at a time
+constexpr std::size_t kMostInSubtree = std::size_t{1} << 17;  ///< items of what one thread builds alone
+constexpr std::size_t kFewToShare = std::size_t{1} << 14;     ///< items that threads do not split together
 
-Float4 smaller(Float4 a, Float4 b) noexcept {
-  return a < b ? a : b;
-}
-Float4 larger(Float4 a, Float4 b) noexcept {
-  return a > b ? a : b;
-}
+using Parts = std::array<Range, kTreeWidth>;
 
-/// A box in tree space.
-struct Bounds {
-  static constexpr float kInf = std::numeric_limits<float>::infinity();
-  Float4 lo{kInf, kInf, kInf, kInf};
-  Float4 hi{-kInf, -kInf, -kInf, -kInf};
-
-  void include(const Bounds& other) noexcept {
-    lo = smaller(lo, other.lo);
-    hi = larger(hi, other.hi);
-  }
-  float half_area() const noexcept {
-    const Float4 d = hi - lo;
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-  }
-};
-
-/// A sphere to be sorted into the tree. Its index keeps in the lane of its box that is to spare.
-struct Item {
-  Bounds box;  ///< rounded outward
-
-  Item(const Vec3& lo, const Vec3& hi, std::size_t index) noexcept {
-    const auto bits = static_cast<std::uint32_t>(index);
-    box.lo = Float4{TreeSpace::down(lo.x), TreeSpace::down(lo.y), TreeSpace::down(lo.z), std::bit_cast<float>(bits)};
-    box.hi = Float4{TreeSpace::up(hi.x), TreeSpace::up(hi.y), TreeSpace::up(hi.z), 0};
-  }
-  std::uint32_t index() const noexcept { return std::bit_cast<std::uint32_t>(static_cast<float>(box.lo[3])); }
-  Float4 twice_center() const noexcept { return box.lo + box.hi; }
-};
-
-/// Items of one subtree.
-struct Range {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-  Bounds box;
-  Bounds centers;  ///< times two
-
-  std::size_t count() const noexcept { return end - begin; }
-  void include(const Item& item) noexcept {
-    box.include(item.box);
-    const Float4 center = item.twice_center();
-    centers.include({center, center});
-  }
-};
-
-/// Leaf tests that so many spheres cost.
-float cost_of(std::size_t count) noexcept {
-  return static_cast<float>((count + kLeafSize - 1) / kLeafSize);
-}
-
-struct Bin {
-  Bounds box;
-  std::size_t count = 0;
-};
-using Bins = std::array<Bin, kMaxBins>;
-
-/// Maps centres to bins, along all axes at once.
-class Binning {
- public:
-  explicit Binning(const Range& range) noexcept
-      : bins_(std::min(kMaxBins, 4 + range.count() / 4)), origin_(range.centers.lo) {
-    scale_ = static_cast<float>(bins_) * (1 - 0x1p-20F) / (range.centers.hi - range.centers.lo);
-  }
-
-  std::size_t bins() const noexcept { return bins_; }
-  bool can_split(int axis) const noexcept {
-    return scale_[axis] > 0 && scale_[axis] < std::numeric_limits<float>::max();
-  }
-  std::size_t bin_of(const Item& item, int axis) const noexcept {
-    return static_cast<std::size_t>((item.twice_center()[axis] - origin_[axis]) * scale_[axis]);
-  }
-
- private:
-  std::size_t bins_;
-  Float4 origin_;
-  Float4 scale_;
-};
-
-/// A plane between two bins on one axis, and the leaf tests that are expected beyond it.
-struct Split {
-  int axis = -1;
-  std::size_t bin = 0;  ///< items in bins <= bin go left
-  float cost = std::numeric_limits<float>::infinity();
-};
-
-/// Sweeps the planes between bins: costs of the right sides first, then left sides against them.
-void consider_planes(const Bins& bins, std::size_t count, int axis, Split& best) noexcept {
-  std::array<float, kMaxBins> right_cost{};
-  Bin right;
-  for (std::size_t i = count - 1; i > 0; --i) {
-    right.box.include(bins[i].box);
-    right.count += bins[i].count;
-    right_cost[i] = right.count == 0 ? 0 : right.box.half_area() * cost_of(right.count);
-  }
-  Bin left;
-  const std::size_t total = right.count + bins[0].count;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    left.box.include(bins[i].box);
-    left.count += bins[i].count;
-    if (left.count == 0 || left.count == total) continue;
-    const float cost = left.box.half_area() * cost_of(left.count) + right_cost[i + 1];
-    if (cost < best.cost) best = {axis, i, cost};
+/// Puts parts on the high side of an axis into lanes with the bit of that axis, as well as that goes: x has bit 4,
+/// y bit 2, z bit 1. So a ray that goes through the lanes in order of lane ^ octant meets near children first.
+/// source:  Ylitie, Karras, Laine, Efficient incoherent ray traversal on GPUs through compressed wide BVHs (2017)
+void place_by_octant(Parts& parts, const Bounds& box) noexcept {
+  const Float4 middle = box.lo + box.hi;
+  const auto place = [&](const Range& part, int axis) {
+    return part.count() == 0 ? middle[axis] : part.box.lo[axis] + part.box.hi[axis];
+  };
+  for (std::size_t size = kTreeWidth, axis = 0; size > 1; size /= 2, ++axis) {
+    for (std::size_t first = 0; first != kTreeWidth; first += size) {
+      const auto begin = parts.begin() + static_cast<std::ptrdiff_t>(first);
+      std::sort(begin, begin + static_cast<std::ptrdiff_t>(size), [&](const Range& a, const Range& b) {
+        return place(a, static_cast<int>(axis)) < place(b, static_cast<int>(axis));
+      });
+    }
   }
 }
 
-class Builder {
- public:
-  Builder(std::span<const Sphere> spheres, const TreeSpace& space) : spheres_(spheres), space_(space) {
-    items_.reserve(spheres.size());
-    Range all;
-    for (std::size_t i = 0; i != spheres.size(); ++i) {
-      if (spheres[i].radius == 0) continue;
-      items_.push_back(item_of(i));
-      all.include(items_.back());
-    }
-    all.end = items_.size();
-    if (items_.empty()) return;
-    leaves_.reserve(items_.size() / 4);
-    nodes_.reserve(items_.size() / 24 + 1);
-    build_node(all, 0);
+/// The part with the largest surface, of equals that with the most items; at great depth that with the most items.
+/// None where all fit into leaves.
+Range* part_to_split(std::span<Range> parts, int depth) noexcept {
+  const auto weight = [&](const Range& part) {
+    return std::pair(depth < kHalvingDepth ? part.box.half_area() : 0, part.count());
+  };
+  Range* most = nullptr;
+  for (Range& part : parts) {
+    if (part.count() > kLeafSize && (most == nullptr || weight(part) > weight(*most))) most = &part;
   }
+  return most;
+}
 
-  Bvh finish() && {
-    nodes_.shrink_to_fit();
-    leaves_.shrink_to_fit();
-    return {space_, std::move(nodes_), std::move(leaves_)};
+/// Splits a range into up to eight; the others are empty.
+template <class Split>
+Parts parts_of(const Range& range, int depth, Split&& split) {
+  Parts parts{range};
+  std::size_t count = 1;
+  while (count < kTreeWidth) {
+    Range* const part = part_to_split(std::span(parts).first(count), depth);
+    if (part == nullptr) break;
+    const auto [left, right] = depth < kHalvingDepth ? split(*part) : halve(*part);
+    *part = left;
+    parts[count++] = right;
   }
+  place_by_octant(parts, range.box);
+  return parts;
+}
 
- private:
-  Item item_of(std::size_t index) const noexcept {
-    const Sphere& sphere = spheres_[index];
-    const Vec3 c = space_.from_scene(sphere.center);
-    const double r = sphere.radius * space_.scale;
-    const Vec3 reach{r, r, r};
-    return {c - reach, c + reach, index};
+TreeNode empty_node() noexcept {
+  TreeNode node{};
+  for (auto& axis : node.bounds) {
+    std::fill(std::begin(axis[0]), std::end(axis[0]), std::numeric_limits<float>::infinity());
+    std::fill(std::begin(axis[1]), std::end(axis[1]), -std::numeric_limits<float>::infinity());
   }
+  return node;
+}
 
-  std::uint32_t build_node(const Range& range, int depth) {
-    std::array<Range, kTreeWidth> parts{range};
-    std::size_t count = 1;
-    while (count < kTreeWidth) {
-      Range* const part = part_to_split(std::span(parts).first(count), depth);
-      if (part == nullptr) break;
-      const auto [left, right] = split(*part, depth);
-      *part = left;
-      parts[count++] = right;
-    }
-
-    const auto index = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back(empty_node());
-    place_by_octant(parts, range.box);
-    for (std::size_t i = 0; i != kTreeWidth; ++i) {
-      if (parts[i].count() == 0) continue;
-      const std::uint32_t child = parts[i].count() <= kLeafSize ? add_leaf(parts[i]) : build_node(parts[i], depth + 1);
-      nodes_[index].child[i] = child;
-      for (std::size_t axis = 0; axis != 3; ++axis) {
-        nodes_[index].bounds[axis][0][i] = parts[i].box.lo[axis];
-        nodes_[index].bounds[axis][1][i] = parts[i].box.hi[axis];
-      }
-    }
-    return index;
-  }
-
-  /// Puts parts on the high side of an axis into lanes with the bit of that axis, as well as that goes: x has bit 4,
-  /// y bit 2, z bit 1. So a ray that goes through the lanes in order of lane ^ octant meets near children first.
-  /// source:  Ylitie, Karras, Laine, Efficient incoherent ray traversal on GPUs through compressed wide BVHs (2017)
-  static void place_by_octant(std::array<Range, kTreeWidth>& parts, const Bounds& box) noexcept {
-    const Float4 middle = box.lo + box.hi;
-    const auto place = [&](const Range& part, int axis) {
-      return part.count() == 0 ? middle[axis] : part.box.lo[axis] + part.box.hi[axis];
-    };
-    for (std::size_t size = kTreeWidth, axis = 0; size > 1; size /= 2, ++axis) {
-      for (std::size_t first = 0; first != kTreeWidth; first += size) {
-        const auto begin = parts.begin() + static_cast<std::ptrdiff_t>(first);
-        std::sort(begin, begin + static_cast<std::ptrdiff_t>(size), [&](const Range& a, const Range& b) {
-          return place(a, static_cast<int>(axis)) < place(b, static_cast<int>(axis));
-        });
-      }
+TreeNode node_around(const Parts& parts) noexcept {
+  TreeNode node = empty_node();
+  for (std::size_t i = 0; i != kTreeWidth; ++i) {
+    if (parts[i].count() == 0) continue;
+    for (std::size_t axis = 0; axis != 3; ++axis) {
+      node.bounds[axis][0][i] = parts[i].box.lo[axis];
+      node.bounds[axis][1][i] = parts[i].box.hi[axis];
     }
   }
+  return node;
+}
 
-  /// The part with the largest surface, of equals that with the most items; at great depth that with the most items.
-  /// None where all fit into leaves.
-  static Range* part_to_split(std::span<Range> parts, int depth) noexcept {
-    const auto weight = [&](const Range& part) {
-      return std::pair(depth < kHalvingDepth ? part.box.half_area() : 0, part.count());
-    };
-    Range* most = nullptr;
-    for (Range& part : parts) {
-      if (part.count() > kLeafSize && (most == nullptr || weight(part) > weight(*most))) most = &part;
-    }
-    return most;
+TreeLeaf leaf_of(const Range& range, std::span<const Sphere> spheres, const TreeSpace& space) noexcept {
+  TreeLeaf leaf{};
+  std::fill(std::begin(leaf.radius), std::end(leaf.radius), -TreeLeaf::kNowhere);
+  std::fill(std::begin(leaf.id), std::end(leaf.id), SurfaceId::none);
+  for (std::size_t lane = 0; lane != range.count(); ++lane) {
+    const std::uint32_t index = range.begin[lane].index();
+    const Vec3 c = space.from_scene(spheres[index].center);
+    for (int axis = 0; axis != 3; ++axis) leaf.center[axis][lane] = static_cast<float>(c[axis]);
+    const double error = TreeRay::kSphereError * sum_of_sizes(c);
+    leaf.radius[lane] = TreeSpace::up(spheres[index].radius * space.scale * (1 + 0x1p-20) + error);
+    leaf.id[lane] = surface_id(index);
   }
-
-  std::pair<Range, Range> split(const Range& range, int depth) {
-    if (depth < kHalvingDepth) {
-      const Binning binning(range);
-      const Split best = best_split(range, binning);
-      if (best.axis >= 0) return split_at(range, binning, best);
-    }
-    const std::size_t middle = range.begin + range.count() / 2;
-    return {range_of(range.begin, middle), range_of(middle, range.end)};
-  }
-
-  Split best_split(const Range& range, const Binning& binning) const noexcept {
-    std::array<Bins, 3> bins{};
-    for (std::size_t i = range.begin; i != range.end; ++i) {
-      for (int axis = 0; axis != 3; ++axis) {
-        if (!binning.can_split(axis)) continue;
-        Bin& bin = bins[static_cast<std::size_t>(axis)][binning.bin_of(items_[i], axis)];
-        bin.box.include(items_[i].box);
-        ++bin.count;
-      }
-    }
-    Split best;
-    for (int axis = 0; axis != 3; ++axis) {
-      if (binning.can_split(axis)) consider_planes(bins[static_cast<std::size_t>(axis)], binning.bins(), axis, best);
-    }
-    return best;
-  }
-
-  std::pair<Range, Range> split_at(const Range& range, const Binning& binning, const Split& at) noexcept {
-    Range left{range.begin, range.begin, {}, {}};
-    Range right{range.end, range.end, {}, {}};
-    while (left.end != right.begin) {
-      Item& item = items_[left.end];
-      if (binning.bin_of(item, at.axis) <= at.bin) {
-        left.include(item);
-        ++left.end;
-      } else {
-        right.include(item);
-        std::swap(item, items_[--right.begin]);
-      }
-    }
-    return {left, right};
-  }
-
-  Range range_of(std::size_t begin, std::size_t end) const noexcept {
-    Range range{begin, end, {}, {}};
-    for (std::size_t i = begin; i != end; ++i) range.include(items_[i]);
-    return range;
-  }
-
-  static TreeNode empty_node() noexcept {
-    TreeNode node{};
-    for (auto& axis : node.bounds) {
-      std::fill(std::begin(axis[0]), std::end(axis[0]), std::numeric_limits<float>::infinity());
-      std::fill(std::begin(axis[1]), std::end(axis[1]), -std::numeric_limits<float>::infinity());
-    }
-    return node;
-  }
-
-  std::uint32_t add_leaf(const Range& range) {
-    TreeLeaf leaf{};
-    std::fill(std::begin(leaf.radius), std::end(leaf.radius), -TreeLeaf::kNowhere);
-    std::fill(std::begin(leaf.id), std::end(leaf.id), SurfaceId::none);
-    for (std::size_t lane = 0; lane != range.count(); ++lane) {
-      const std::uint32_t index = items_[range.begin + lane].index();
-      const Vec3 c = space_.from_scene(spheres_[index].center);
-      for (int axis = 0; axis != 3; ++axis) leaf.center[axis][lane] = static_cast<float>(c[axis]);
-      const double error = TreeRay::kSphereError * sum_of_sizes(c);
-      leaf.radius[lane] = TreeSpace::up(spheres_[index].radius * space_.scale * (1 + 0x1p-20) + error);
-      leaf.id[lane] = surface_id(index);
-    }
-    leaves_.push_back(leaf);
-    return TreeChild::kLeafBit | static_cast<std::uint32_t>(leaves_.size() - 1);
-  }
-
-  std::span<const Sphere> spheres_;
-  TreeSpace space_;
-  std::vector<Item> items_;
-  std::vector<TreeNode> nodes_;
-  std::vector<TreeLeaf> leaves_;
-};
+  return leaf;
+}
 
 /// A point in the middle of most spheres: on each axis the median of some of the centres.
 Vec3 median_center(std::span<const Sphere> spheres) {
@@ -316,12 +125,14 @@ Vec3 median_center(std::span<const Sphere> spheres) {
   return {median(0), median(1), median(2)};
 }
 
-TreeSpace space_of(std::span<const Sphere> spheres) {
-  TreeSpace space;
+/// What some spheres that can be hit need: how many they are, and their box.
+struct Extent {
+  std::size_t count = 0;
   Box box;
-  for (const Sphere& sphere : spheres) {
-    if (sphere.radius > 0) box.include(bounds_of(sphere.center, sphere.radius));
-  }
+};
+
+TreeSpace space_of(std::span<const Sphere> spheres, const Box& box) {
+  TreeSpace space;
   if (box.is_empty()) return space;
   space.base = median_center(spheres);
   int exponent = 0;
@@ -336,8 +147,180 @@ TreeSpace space_of(std::span<const Sphere> spheres) {
 
 }  // namespace
 
-Bvh build_bvh(std::span<const Sphere> spheres) {
-  return Builder(spheres, space_of(spheres)).finish();
+/// A subtree that is still to be built.
+struct BvhBuild::Task {
+  Range range;
+  int depth;
+};
+
+/// Where items are, and where there is room for as many: parts move from one place to the other and back.
+class BvhBuild::Items {
+ public:
+  explicit Items(std::size_t count)
+      : one_(std::make_unique_for_overwrite<Item[]>(count)),
+        other_(std::make_unique_for_overwrite<Item[]>(count)),
+        end_(one_.get() + count) {}
+
+  Item* begin() const noexcept { return one_.get(); }
+  Item* end() const noexcept { return end_; }
+  Item* room_for(const Range& range) const noexcept {
+    const bool is_in_one = !std::less<>{}(range.begin, one_.get()) && !std::less<>{}(end_, range.end);
+    return is_in_one ? other_.get() + (range.begin - one_.get()) : one_.get() + (range.begin - other_.get());
+  }
+
+ private:
+  std::unique_ptr<Item[]> one_;
+  std::unique_ptr<Item[]> other_;
+  Item* end_;
+};
+
+BvhBuild::BvhBuild(std::span<const Sphere> spheres, unsigned threads) : spheres_(spheres), threads_(threads) {
+  // Measure the spheres, chunk by chunk
+  const std::size_t chunks = (spheres.size() + kChunk - 1) / kChunk;
+  const auto chunk = [&](std::size_t i) {
+    return spheres.subspan(i * kChunk, std::min(kChunk, spheres.size() - i * kChunk));
+  };
+  std::vector<Extent> extents(chunks);
+  parallel_for(threads, chunks, [&](std::size_t i) {
+    extents[i].box = hittable_bounds(chunk(i));
+    extents[i].count =
+        static_cast<std::size_t>(std::ranges::count_if(chunk(i), [](const Sphere& s) { return s.radius > 0; }));
+  });
+  Extent all;
+  for (Extent& extent : extents) {
+    all.box.include(extent.box);
+    all.count += std::exchange(extent.count, all.count);  // from here on: those before
+  }
+  space_ = space_of(spheres, all.box);
+  parts_.resize(1);
+  if (all.count == 0) return;
+
+  // Make items of them
+  const Items items(all.count);
+  std::vector<Range> ranges(chunks);
+  parallel_for(threads, chunks, [&](std::size_t i) {
+    Item* at = items.begin() + extents[i].count;
+    for (const Sphere& sphere : chunk(i)) {
+      if (sphere.radius == 0) continue;
+      const Vec3 c = space_.from_scene(sphere.center);
+      const double r = sphere.radius * space_.scale;
+      const Vec3 reach{r, r, r};
+      *at = Item(c - reach, c + reach, static_cast<std::size_t>(&sphere - spheres.data()));
+      ranges[i].include(*at++);
+    }
+  });
+  Range root{items.begin(), items.end()};
+  for (const Range& range : ranges) {
+    root.box.include(range.box);
+    root.centers.include(range.centers);
+  }
+
+  // The top together, then each subtree by one thread, large ones first
+  std::vector<Task> tasks;
+  if (root.count() > kMostInSubtree) {
+    build_top(root, 0, items, tasks);
+  } else {
+    tasks.push_back({root, 0});
+  }
+  parts_.resize(1 + tasks.size());
+  std::vector<std::size_t> order(tasks.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, std::greater<>{}, [&](std::size_t i) { return tasks[i].range.count(); });
+  parallel_for(threads, tasks.size(), [&](std::size_t i) {
+    Part& part = parts_[1 + order[i]];
+    const Task& task = tasks[order[i]];
+    part.leaves.reserve(task.range.count() / 4);
+    part.nodes.reserve(task.range.count() / 24 + 1);
+    build_subtree(task.range, task.depth, items, part);
+  });
+  for (const Part& part : parts_) {
+    node_count_ += part.nodes.size();
+    leaf_count_ += part.leaves.size();
+  }
+}
+
+std::uint32_t BvhBuild::build_top(const Range& range, int depth, const Items& items, std::vector<Task>& tasks) {
+  const Parts parts = parts_of(range, depth, [&](const Range& part) {
+    return part.count() < kFewToShare ? split(part, items.room_for(part))
+                                      : split_by_threads(part, items.room_for(part), threads_);
+  });
+  auto& [nodes, leaves] = parts_[0];
+  const auto index = static_cast<std::uint32_t>(nodes.size());
+  nodes.push_back(node_around(parts));
+  for (std::size_t i = 0; i != kTreeWidth; ++i) {
+    if (parts[i].count() == 0) continue;
+    std::uint32_t child = 0;
+    if (parts[i].count() <= kLeafSize) {
+      child = add_leaf(parts[i], parts_[0]);
+    } else if (parts[i].count() > kMostInSubtree) {
+      child = build_top(parts[i], depth + 1, items, tasks);
+    } else {
+      joints_.push_back({index, i});
+      tasks.push_back({parts[i], depth + 1});
+    }
+    nodes[index].child[i] = child;
+  }
+  return index;
+}
+
+std::uint32_t BvhBuild::build_subtree(const Range& range, int depth, const Items& items, Part& to) const {
+  const Parts parts = parts_of(range, depth, [&](const Range& part) { return split(part, items.room_for(part)); });
+  const auto index = static_cast<std::uint32_t>(to.nodes.size());
+  to.nodes.push_back(node_around(parts));
+  // All leaves' spheres are on their way from memory before the first is needed
+  for (const Range& part : parts) {
+    if (part.count() > kLeafSize) continue;
+    for (const Item* item = part.begin; item != part.end; ++item) __builtin_prefetch(&spheres_[item->index()]);
+  }
+  for (std::size_t i = 0; i != kTreeWidth; ++i) {
+    if (parts[i].count() == 0) continue;
+    const std::uint32_t child =
+        parts[i].count() <= kLeafSize ? add_leaf(parts[i], to) : build_subtree(parts[i], depth + 1, items, to);
+    to.nodes[index].child[i] = child;
+  }
+  return index;
+}
+
+std::uint32_t BvhBuild::add_leaf(const Range& range, Part& to) const {
+  to.leaves.push_back(leaf_of(range, spheres_, space_));
+  return TreeChild::kLeafBit | static_cast<std::uint32_t>(to.leaves.size() - 1);
+}
+
+void BvhBuild::move_to(std::span<TreeNode> nodes, std::span<TreeLeaf> leaves) {
+  // Each part follows the one before
+  struct Begin {
+    std::size_t node = 0;
+    std::size_t leaf = 0;
+  };
+  std::vector<Begin> begins{{}};
+  for (const Part& part : parts_) {
+    begins.push_back({begins.back().node + part.nodes.size(), begins.back().leaf + part.leaves.size()});
+  }
+  for (std::size_t i = 0; i != joints_.size(); ++i) {
+    parts_[0].nodes[joints_[i].node].child[joints_[i].lane] = static_cast<std::uint32_t>(begins[1 + i].node);
+  }
+  parallel_for(threads_, parts_.size(), [&](std::size_t i) {
+    const Part part = std::move(parts_[i]);
+    const auto& [first_node, first_leaf] = begins[i];
+    std::ranges::copy(part.leaves, leaves.begin() + static_cast<std::ptrdiff_t>(first_leaf));
+    std::ranges::copy(part.nodes, nodes.begin() + static_cast<std::ptrdiff_t>(first_node));
+    for (TreeNode& node : nodes.subspan(first_node, part.nodes.size())) {
+      for (std::size_t lane = 0; lane != kTreeWidth; ++lane) {
+        if (!(node.bounds[0][0][lane] <= node.bounds[0][1][lane])) continue;
+        node.child[lane] += static_cast<std::uint32_t>(TreeChild::is_leaf(node.child[lane]) ? first_leaf : first_node);
+      }
+    }
+  });
+}
+
+Bvh build_bvh(std::span<const Sphere> spheres, unsigned threads) {
+  BvhBuild build(spheres, threads);
+  const std::shared_ptr<TreeNode[]> nodes(new TreeNode[build.node_count()]);
+  const std::shared_ptr<TreeLeaf[]> leaves(new TreeLeaf[build.leaf_count()]);
+  const std::span all_nodes(nodes.get(), build.node_count());
+  const std::span all_leaves(leaves.get(), build.leaf_count());
+  build.move_to(all_nodes, all_leaves);
+  return {build.space(), {nodes, all_nodes}, {leaves, all_leaves}};
 }
 
 }  // namespace tessera::render

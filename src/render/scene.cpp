@@ -12,10 +12,7 @@ namespace tessera::render {
 
 Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(runnable(kernel)) {
   if (kernel_ != Kernel::brute) bvh_ = build_bvh(data_.spheres);
-  Box bounds;
-  for (const Sphere& sphere : data_.spheres) {
-    if (sphere.radius > 0) bounds.include(bounds_of(sphere.center, sphere.radius));
-  }
+  const Box bounds = hittable_bounds(data_.spheres);
   if (!bounds.is_empty()) {
     middle_ = 0.5 * (bounds.lo + bounds.hi);
     reach_ = bounds.reach_from(middle_);

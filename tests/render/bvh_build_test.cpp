@@ -2,12 +2,17 @@
 // Input that no plane splits well, or at all.
 #include "render/bvh_build.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
+#include "render/parallel_for.h"
 #include "render/random.h"
 #include "render/tree_inspection.h"
 
@@ -47,9 +52,45 @@ Bvh lopsided_tree(int depth) {
   return {space, nodes, leaves};
 }
 
+/// Whether two trees are the same to the last bit.
+bool same_bytes(const Bvh& a, const Bvh& b) {
+  const auto same = [](const auto& one, const auto& other) {
+    const auto bytes = std::as_bytes(one);
+    return std::ranges::equal(bytes, std::as_bytes(other));
+  };
+  return same(a.nodes(), b.nodes()) && same(a.leaves(), b.leaves());
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(bvh_build)
+
+// Many enough for nodes that threads split together; with a cluster that no plane cuts, and some that are never hit.
+BOOST_AUTO_TEST_CASE(any_number_of_threads_builds_the_same_valid_tree) {
+  Random random(115);
+  std::vector<Sphere> spheres;
+  for (int i = 0; i != 450'000; ++i) {
+    const bool is_in_cluster = i % 3 == 0;
+    spheres.push_back(sphere_at(is_in_cluster ? Vec3{0.25, 0.5, 2} : random.in_box(1),
+                                i % 7 == 0 ? 0 : random.over_decades(1e-5, 1e-2)));
+  }
+  check_invariants(spheres);
+  const Bvh one = build_bvh(spheres, 1);
+  for (const unsigned threads : {2U, 3U, 16U}) BOOST_TEST(same_bytes(one, build_bvh(spheres, threads)), threads);
+}
+
+BOOST_AUTO_TEST_CASE(parallel_for_visits_all_and_hands_on_what_is_thrown) {
+  for (const unsigned threads : {1U, 2U, 5U}) {
+    std::vector<std::atomic<int>> visits(1000);
+    parallel_for(threads, visits.size(), [&](std::size_t i) { ++visits[i]; });
+    BOOST_TEST(std::ranges::all_of(visits, [](int n) { return n == 1; }));
+    parallel_for(threads, 0, [](std::size_t) { BOOST_ERROR("nothing to visit"); });
+    const auto fail = [](std::size_t i) {
+      if (i == 77) throw std::runtime_error("77");
+    };
+    BOOST_CHECK_THROW(parallel_for(threads, 1000, fail), std::runtime_error);
+  }
+}
 
 BOOST_AUTO_TEST_CASE(equal_centers_of_all_sizes_build_a_valid_tree) {
   std::vector<Sphere> spheres;
