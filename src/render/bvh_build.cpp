@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "render/huge_array.h"
 #include "render/parallel_for.h"
 #include "render/sah_split.h"
 
@@ -157,9 +158,7 @@ struct BvhBuild::Task {
 class BvhBuild::Items {
  public:
   explicit Items(std::size_t count)
-      : one_(std::make_unique_for_overwrite<Item[]>(count)),
-        other_(std::make_unique_for_overwrite<Item[]>(count)),
-        end_(one_.get() + count) {}
+      : one_(huge_array<Item>(count)), other_(huge_array<Item>(count)), end_(one_.get() + count) {}
 
   Item* begin() const noexcept { return one_.get(); }
   Item* end() const noexcept { return end_; }
@@ -169,8 +168,8 @@ class BvhBuild::Items {
   }
 
  private:
-  std::unique_ptr<Item[]> one_;
-  std::unique_ptr<Item[]> other_;
+  HugeArray<Item> one_;
+  HugeArray<Item> other_;
   Item* end_;
 };
 
@@ -315,8 +314,8 @@ void BvhBuild::move_to(std::span<TreeNode> nodes, std::span<TreeLeaf> leaves) {
 
 Bvh build_bvh(std::span<const Sphere> spheres, unsigned threads) {
   BvhBuild build(spheres, threads);
-  const std::shared_ptr<TreeNode[]> nodes(new TreeNode[build.node_count()]);
-  const std::shared_ptr<TreeLeaf[]> leaves(new TreeLeaf[build.leaf_count()]);
+  const std::shared_ptr<TreeNode[]> nodes = huge_array<TreeNode>(build.node_count());
+  const std::shared_ptr<TreeLeaf[]> leaves = huge_array<TreeLeaf>(build.leaf_count());
   const std::span all_nodes(nodes.get(), build.node_count());
   const std::span all_leaves(leaves.get(), build.leaf_count());
   build.move_to(all_nodes, all_leaves);

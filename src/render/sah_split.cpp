@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <vector>
 
 #include "render/parallel_for.h"
@@ -126,19 +125,46 @@ void set_boxes(Range& left, Range& right, const Histogram& histogram, std::size_
   }
 }
 
+/// Where items go: the left ones to begin ... middle, the right ones to `right` and on.
+struct Places {
+  Item* left;
+  Item* left_end;
+  Item* right;
+  Item* right_end;
+};
+
 /// Sorts items to the left and right without a branch that could be guessed wrong: each goes to both places, and one
-/// of them moves on. `left` may be `begin`.
-void sort_apart(const Item* begin, const Item* end, const Binning& binning, const Plane& plane, Item* left, Item* right,
-                std::array<Bounds, 2>& centers) noexcept {
-  for (const Item* at = begin; at != end; ++at) {
+/// of them moves on. `to.left` may be `begin`. Returns the bounds of both parts' centres.
+std::array<Bounds, 2> sort_apart(const Item* begin, const Item* end, const Binning& binning, const Plane& plane,
+                                 Places to) noexcept {
+  const Float4 nowhere = Float4{} + Bounds::kInf;
+  Bounds left = Bounds::empty();
+  Bounds right = Bounds::empty();
+  const auto sort = [&](const Item& item) {
+    const Int4 side = binning.bins_of(item);
+    const bool is_left = plane.has_left(side);
+    const Int4 in_left = Int4{} - (is_left ? 1 : 0);
+    const Float4 center = item.twice_center();
+    left.include({in_left ? center : nowhere, in_left ? center : -nowhere});
+    right.include({in_left ? nowhere : center, in_left ? -nowhere : center});
+    return is_left;
+  };
+  const Item* at = begin;
+  for (; to.left != to.left_end && to.right != to.right_end; ++at) {
     const Item item = *at;
-    const bool is_left = plane.has_left(binning.bins_of(item));
-    centers[is_left ? 0 : 1].include(item.twice_center());
-    *left = item;
-    *right = item;
-    left += is_left ? 1 : 0;
-    right += is_left ? 0 : 1;
+    const bool is_left = sort(item);
+    *to.left = item;
+    *to.right = item;
+    to.left += is_left ? 1 : 0;
+    to.right += is_left ? 0 : 1;
   }
+  // One part is complete: the rest is the other's
+  Item* rest = to.left == to.left_end ? to.right : to.left;
+  for (; at != end; ++at) {
+    sort(*at);
+    *rest++ = *at;
+  }
+  return {left, right};
 }
 
 }  // namespace
@@ -150,12 +176,12 @@ std::pair<Range, Range> split(const Range& range, Item* room) noexcept {
   const Plane plane = best_plane(histogram, binning);
   if (!plane.cuts()) return halve(range);
 
-  std::array<Bounds, 2> centers{Bounds::empty(), Bounds::empty()};
   const auto& counts = histogram.count[static_cast<std::size_t>(plane.axis)];
   std::size_t left_count = 0;
   for (int i = 0; i <= plane.bin; ++i) left_count += counts[static_cast<std::size_t>(i)];
   Item* const middle = range.begin + left_count;
-  sort_apart(range.begin, range.end, binning, plane, range.begin, room, centers);
+  const auto centers =
+      sort_apart(range.begin, range.end, binning, plane, {range.begin, middle, room, room + (range.end - middle)});
   std::copy(room, room + (range.end - middle), middle);
   Range left{range.begin, middle, Bounds::empty(), centers[0]};
   Range right{middle, range.end, Bounds::empty(), centers[1]};
@@ -214,10 +240,8 @@ std::pair<Range, Range> split_by_threads(const Range& range, Item* to, unsigned 
     Chunk& chunk = chunks[i];
     const auto count = static_cast<std::size_t>(chunk.end - chunk.begin);
     const std::size_t lefts = left_count(chunk.histogram);
-    const auto room = std::make_unique_for_overwrite<Item[]>(count);
-    sort_apart(chunk.begin, chunk.end, binning, plane, chunk.begin, room.get(), chunk.centers);
-    std::copy_n(chunk.begin, lefts, chunk.left_to);
-    std::copy_n(room.get(), count - lefts, chunk.right_to);
+    chunk.centers = sort_apart(chunk.begin, chunk.end, binning, plane,
+                               {chunk.left_to, chunk.left_to + lefts, chunk.right_to, chunk.right_to + count - lefts});
   });
   for (const Chunk& chunk : chunks) {
     left.centers.include(chunk.centers[0]);
