@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/render_command.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "app/failure.h"
 #include "app/progress.h"
 #include "app/render_lead.h"
+#include "app/shared_tree.h"
 #include "scheduler/launcher.h"
 #include "scheduler/mpi/session.h"
 #include "scheduler/mpi/transport.h"
@@ -39,12 +46,19 @@ void render_and_finish(RenderLead& lead, const RenderOptions& options, const Tea
   lead.finish(mosaic, tiles, record, total);
 }
 
+/// A job's scene, made whole.
+render::SceneData with_spheres(render::SceneData scene, std::vector<render::Sphere> spheres) {
+  scene.spheres = std::move(spheres);
+  return scene;
+}
+
 ExitCode render_alone(const RenderOptions& options, const std::string& command_line) {
   const Stopwatch total;
   const Team team;
   RenderLead lead(options, command_line, team);
   const Stopwatch build;
-  const render::Scene scene(lead.job().scene, lead.job().kernel);
+  std::vector<render::Sphere> spheres = lead.take_spheres();
+  const render::Scene scene(with_spheres(lead.job().scene, std::move(spheres)), lead.job().kernel);
   lead.times().build = build.seconds();
   render_and_finish(lead, options, team, scene, total, [](const auto& plan, const auto& work, const auto& accept) {
     return scheduler::run_in_process(1, 0, plan, work, accept);
@@ -52,14 +66,22 @@ ExitCode render_alone(const RenderOptions& options, const std::string& command_l
   return ExitCode::success;
 }
 
-/// What rank 0 tells the others at the start: one byte that says how reading went, then the job if it went well.
-scheduler::Bytes opening(ExitCode code, const RenderJob* job) {
-  scheduler::Bytes bytes{static_cast<std::byte>(code)};
-  if (job != nullptr) {
-    const scheduler::Bytes encoded = encode_job(*job);
-    bytes.insert(bytes.end(), encoded.begin(), encoded.end());
-  }
-  return bytes;
+/// What rank 0 tells the others at the start: how reading went, and how many spheres follow the job if it went well.
+struct Opening {
+  ExitCode code;
+  std::uint64_t spheres;
+};
+static_assert(std::is_trivially_copyable_v<Opening> && std::is_trivially_copyable_v<render::Sphere>);
+
+std::span<std::byte> bytes_of(Opening& opening) noexcept {
+  return std::as_writable_bytes(std::span(&opening, 1));
+}
+
+/// A scene whose tree the ranks of each node have built together.
+render::Scene shared_scene(Session& session, render::SceneData scene, render::Kernel kernel) {
+  if (render::runnable(kernel) == render::Kernel::brute) return {std::move(scene), kernel};
+  render::Bvh tree = build_on_node(session, scene.spheres);
+  return {std::move(scene), kernel, std::move(tree)};
 }
 
 ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::string& command_line) {
@@ -73,13 +95,19 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
     code = report_failure();
   }
   const Stopwatch broadcast;
-  scheduler::Bytes bytes = opening(code, lead ? &lead->job() : nullptr);
-  session.broadcast(bytes);
+  std::vector<render::Sphere> spheres;
+  if (lead) spheres = lead->take_spheres();
+  Opening opening{code, spheres.size()};
+  session.broadcast(bytes_of(opening));
   if (!lead) return code;
+  scheduler::Bytes job = encode_job(lead->job());
+  session.broadcast(job);
+  session.broadcast(std::as_writable_bytes(std::span(spheres)));
   lead->times().broadcast = broadcast.seconds();
 
   const Stopwatch build;
-  const render::Scene scene(lead->job().scene, lead->job().kernel);
+  const render::Scene scene =
+      shared_scene(session, with_spheres(lead->job().scene, std::move(spheres)), lead->job().kernel);
   MpiTransport transport(session);
   session.barrier();
   lead->times().build = build.seconds();
@@ -90,14 +118,16 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
 }
 
 ExitCode follow(Session& session) {
+  Opening opening{};
+  session.broadcast(bytes_of(opening));
+  if (opening.code != ExitCode::success) return opening.code;
   scheduler::Bytes bytes;
   session.broadcast(bytes);
-  const auto code = static_cast<ExitCode>(bytes.at(0));
-  if (code != ExitCode::success) return code;
+  const RenderJob job = decode_job(bytes);
+  std::vector<render::Sphere> spheres(opening.spheres);
+  session.broadcast(std::as_writable_bytes(std::span(spheres)));
 
-  RenderJob job = decode_job(std::span(bytes).subspan(1));
-  bytes = {};
-  const render::Scene scene(std::move(job.scene), job.kernel);
+  const render::Scene scene = shared_scene(session, with_spheres(job.scene, std::move(spheres)), job.kernel);
   const auto tiles = tiles_of(job, session.size());
   const TileWork work(scene, job, tiles);
   MpiTransport transport(session);

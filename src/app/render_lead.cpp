@@ -62,6 +62,8 @@ RenderLead::RenderLead(const RenderOptions& options, std::string command_line, c
   const scheduler::Stopwatch read;
   read_scene();
   stats_.time_s.read = read.seconds();
+  const render::SceneData& scene = job_.scene;
+  stats_.scene = {scene.spheres.size(), scene.planes.size(), scene.lights.size(), scene.materials.size()};
   plan_schedule();
   open_outputs();
 }

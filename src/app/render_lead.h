@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/options.h"
@@ -26,6 +27,9 @@ class RenderLead {
   RenderLead(const RenderOptions& options, std::string command_line, const Team& team);
 
   const RenderJob& job() const noexcept { return job_; }
+
+  /// Gives away the scene's spheres, which may be too many to have twice; the job is one without them from then on.
+  std::vector<render::Sphere> take_spheres() noexcept { return std::exchange(job_.scene.spheres, {}); }
 
   /// Phases that are timed elsewhere go in here.
   io::Stats::Times& times() noexcept { return stats_.time_s; }

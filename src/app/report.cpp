@@ -65,7 +65,6 @@ void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::s
                 const Mosaic& mosaic, const scheduler::RunRecord& run) {
   const std::span<const render::RayCounts> rays = mosaic.rays();
   const render::SceneData& scene = job.scene;
-  stats.scene = {scene.spheres.size(), scene.planes.size(), scene.lights.size(), scene.materials.size()};
   stats.image = {job.area.width, job.area.height, scene.image.samples, scene.image.max_bounces};
   stats.mpi = {team.ranks, team.nodes, team.library};
   stats.schedule = {

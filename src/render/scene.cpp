@@ -10,8 +10,19 @@
 
 namespace tessera::render {
 
-Scene::Scene(SceneData data, Kernel kernel) : data_(std::move(data)), kernel_(runnable(kernel)) {
-  if (kernel_ != Kernel::brute) bvh_ = build_bvh(data_.spheres);
+Scene::Scene(SceneData data, Kernel kernel)
+    : data_(std::move(data)),
+      kernel_(runnable(kernel)),
+      bvh_(kernel_ == Kernel::brute ? Bvh() : build_bvh(data_.spheres)) {
+  prepare();
+}
+
+Scene::Scene(SceneData data, Kernel kernel, Bvh tree)
+    : data_(std::move(data)), kernel_(runnable(kernel)), bvh_(std::move(tree)) {
+  prepare();
+}
+
+void Scene::prepare() {
   const Box bounds = hittable_bounds(data_.spheres);
   if (!bounds.is_empty()) {
     middle_ = 0.5 * (bounds.lo + bounds.hi);

@@ -32,6 +32,9 @@ class Scene {
   /// throws:  std::invalid_argument for a kernel that this machine cannot run
   Scene(SceneData data, Kernel kernel);
 
+  /// With a tree over the spheres that is there already.
+  Scene(SceneData data, Kernel kernel, Bvh tree);
+
   const SceneData& data() const noexcept { return data_; }
   Kernel kernel() const noexcept { return kernel_; }
   const Bvh& bvh() const noexcept { return bvh_; }
@@ -87,6 +90,9 @@ class Scene {
   }
 
  private:
+  /// Derives the rest.
+  void prepare();
+
   SceneData data_;
   Kernel kernel_;
   Bvh bvh_;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <limits>
 #include <stdexcept>
@@ -42,28 +42,55 @@ void wait(MPI_Request request, Patience patience) {
   }
 }
 
-std::uint32_t count_nodes(const Communicator& job, const Communicator& node) {
-  const int first_on_node = node.rank() == 0 ? 1 : 0;
+std::uint32_t count_nodes(const Communicator& job, bool is_first_on_node) {
+  const int first_on_node = is_first_on_node ? 1 : 0;
   int nodes = 0;
   check(MPI_Allreduce(&first_on_node, &nodes, 1, MPI_INT, MPI_SUM, job.get()), "MPI_Allreduce");
   return static_cast<std::uint32_t>(nodes);
 }
 
-/// Whether the ranks of a node outnumber the cores that any of them may run on. Launchers bind ranks to single cores or
-/// leave them free, so the union of what they may use is what counts.
-bool outnumber_cores(const Communicator& node) {
-  using Word = unsigned long;
-  std::array<Word, sizeof(cpu_set_t) / sizeof(Word)> mine{};
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  const bool known = sched_getaffinity(0, sizeof allowed, &allowed) == 0;
-  if (!known) std::memset(&allowed, 0xff, sizeof allowed);  // more cores than fit the set: enough
-  std::memcpy(mine.data(), &allowed, sizeof allowed);
-  std::array<Word, mine.size()> all{};
+static_assert(sizeof(CoreSet) == sizeof(cpu_set_t));
+
+CoreSet cores_of_thread() noexcept {
+  CoreSet cores{};
+  // More cores than fit the set: enough
+  if (sched_getaffinity(0, sizeof cores, reinterpret_cast<cpu_set_t*>(cores.data())) != 0) cores.fill(~0UL);
+  return cores;
+}
+
+void run_thread_on(const CoreSet& cores) noexcept {
+  // Where the system refuses, the thread stays where it is
+  sched_setaffinity(0, sizeof cores, reinterpret_cast<const cpu_set_t*>(cores.data()));
+}
+
+std::uint32_t count(const CoreSet& cores) noexcept {
+  int sum = 0;
+  for (const unsigned long word : cores) sum += std::popcount(word);
+  return static_cast<std::uint32_t>(sum);
+}
+
+/// The cores that any rank of a node may run on. Launchers bind ranks to single cores or leave them free, so the union
+/// is what counts.
+CoreSet cores_of(const Communicator& node) {
+  const CoreSet mine = cores_of_thread();
+  CoreSet all{};
   check(MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_UNSIGNED_LONG, MPI_BOR, node.get()),
         "MPI_Allreduce");
-  std::memcpy(&allowed, all.data(), sizeof allowed);
-  return node.size() > CPU_COUNT(&allowed);
+  return all;
+}
+
+/// The first rank's bytes to all of a communicator.
+void broadcast_among(const Communicator& ranks, std::span<std::byte> bytes, std::size_t piece_bytes,
+                     Patience patience) {
+  if (piece_bytes == 0 || piece_bytes > std::size_t{std::numeric_limits<int>::max()}) {
+    throw std::invalid_argument("a piece of a broadcast must have 1 ... 2^31 - 1 bytes");
+  }
+  for (; !bytes.empty(); bytes = bytes.subspan(std::min(piece_bytes, bytes.size()))) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    const auto count = static_cast<int>(std::min(piece_bytes, bytes.size()));
+    check(MPI_Ibcast(bytes.data(), count, MPI_BYTE, 0, ranks.get(), &request), "MPI_Ibcast");
+    wait(request, patience);
+  }
 }
 
 }  // namespace
@@ -73,13 +100,17 @@ Session::Session(int& argc, char**& argv) : exceptions_before_(std::uncaught_exc
   communicator_ = std::make_unique<Communicator>(Communicator::of_job());
   rank_ = static_cast<Rank>(communicator_->rank());
   size_ = static_cast<std::uint32_t>(communicator_->size());
-  const Communicator node = Communicator::of_node(*communicator_);
-  nodes_ = count_nodes(*communicator_, node);
-  oversubscribed_ = outnumber_cores(node);
+  node_ = std::make_unique<Communicator>(Communicator::of_node(*communicator_));
+  ranks_on_node_ = static_cast<std::uint32_t>(node_->size());
+  first_on_node_ = node_->rank() == 0;
+  nodes_ = count_nodes(*communicator_, first_on_node_);
+  node_cores_ = cores_of(*node_);
+  oversubscribed_ = ranks_on_node_ > count(node_cores_);
 }
 
 Session::~Session() {
   if (std::uncaught_exceptions() > exceptions_before_) abort(kInternalError);
+  node_.reset();
   communicator_.reset();
   MPI_Finalize();
 }
@@ -95,34 +126,46 @@ std::string Session::library() const {
 void Session::barrier() {
   MPI_Request request = MPI_REQUEST_NULL;
   check(MPI_Ibarrier(communicator_->get(), &request), "MPI_Ibarrier");
-  wait(request, oversubscribed_ ? Patience::yield_only : Patience::spin_first);
+  wait(request, patience());
 }
 
 void Session::broadcast(Bytes& bytes, std::size_t piece_bytes) {
-  if (piece_bytes == 0 || piece_bytes > std::size_t{std::numeric_limits<int>::max()}) {
-    throw std::invalid_argument("a piece of a broadcast must have 1 ... 2^31 - 1 bytes");
-  }
-  const auto patience = oversubscribed_ ? Patience::yield_only : Patience::spin_first;
-  const auto broadcast_from_master = [&](void* data, std::size_t count, MPI_Datatype type) {
-    MPI_Request request = MPI_REQUEST_NULL;
-    check(
-        MPI_Ibcast(data, static_cast<int>(count), type, static_cast<int>(kMasterRank), communicator_->get(), &request),
-        "MPI_Ibcast");
-    wait(request, patience);
-  };
-
   std::uint64_t size = bytes.size();
-  broadcast_from_master(&size, 1, MPI_UINT64_T);
+  broadcast(std::as_writable_bytes(std::span(&size, 1)), piece_bytes);
   if (rank_ != kMasterRank) bytes.resize(size);
-  for (std::size_t begin = 0; begin < size; begin += piece_bytes) {
-    broadcast_from_master(bytes.data() + begin, std::min(piece_bytes, size - begin), MPI_BYTE);
-  }
+  broadcast(std::span(bytes), piece_bytes);
+}
+
+void Session::broadcast(std::span<std::byte> bytes, std::size_t piece_bytes) {
+  broadcast_among(*communicator_, bytes, piece_bytes, patience());
+}
+
+void Session::broadcast_on_node(std::span<std::byte> bytes, std::size_t piece_bytes) {
+  broadcast_among(*node_, bytes, piece_bytes, patience());
+}
+
+bool Session::do_all_on_node(bool yes) {
+  const int mine = yes ? 1 : 0;
+  int all = 0;
+  MPI_Request request = MPI_REQUEST_NULL;
+  check(MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MIN, node_->get(), &request), "MPI_Iallreduce");
+  wait(request, patience());
+  return all == 1;
 }
 
 void Session::abort(int code) noexcept {
   std::fflush(nullptr);
   MPI_Abort(MPI_COMM_WORLD, code);
   std::_Exit(code);
+}
+
+NodeCores::NodeCores(const Session& session) noexcept
+    : before_(cores_of_thread()), threads_(std::min(session.ranks_on_node_, std::max(1U, count(session.node_cores_)))) {
+  run_thread_on(session.node_cores_);
+}
+
+NodeCores::~NodeCores() {
+  run_thread_on(before_);
 }
 
 }  // namespace tessera::scheduler::mpi

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
+#include "scheduler/backoff.h"
 #include "scheduler/bytes.h"
 #include "scheduler/task.h"
 
@@ -13,6 +16,9 @@
 namespace tessera::scheduler::mpi {
 
 class Communicator;
+
+/// A bit for each core, as the system counts them.
+using CoreSet = std::array<unsigned long, 16>;
 
 /// MPI is there while this lives; make one, early in main, and never a second.
 ///
@@ -22,6 +28,8 @@ class Communicator;
 /// code 70. Only an error that every rank meets alike may take the normal way out.
 class Session {
  public:
+  static constexpr std::size_t kPieceBytes = std::size_t{1} << 28;
+
   /// throws:  std::runtime_error where MPI cannot give what is needed
   Session(int& argc, char**& argv);
   Session(const Session&) = delete;
@@ -35,6 +43,10 @@ class Session {
   /// Whether on this rank's node there are more ranks than cores that they may run on.
   bool is_oversubscribed() const noexcept { return oversubscribed_; }
 
+  /// Ranks that share this one's memory, itself included, and whether this is the first of them.
+  std::uint32_t ranks_on_node() const noexcept { return ranks_on_node_; }
+  bool is_first_on_node() const noexcept { return first_on_node_; }
+
   /// What implements MPI, "Open MPI v4.1.4".
   std::string library() const;
 
@@ -45,7 +57,16 @@ class Session {
   /// core away. They travel in pieces of `piece_bytes`, for MPI counts in int.
   /// shapes:  1 <= piece_bytes < 2^31, the same on all ranks
   /// throws:  std::invalid_argument, std::runtime_error
-  void broadcast(Bytes& bytes, std::size_t piece_bytes = std::size_t{1} << 28);
+  void broadcast(Bytes& bytes, std::size_t piece_bytes = kPieceBytes);
+
+  /// The same where the others know how many bytes there are.
+  void broadcast(std::span<std::byte> bytes, std::size_t piece_bytes = kPieceBytes);
+
+  /// The same among the ranks of a node, from the first of them.
+  void broadcast_on_node(std::span<std::byte> bytes, std::size_t piece_bytes = kPieceBytes);
+
+  /// Whether all ranks of the node say yes.
+  bool do_all_on_node(bool yes);
 
   /// Ends every rank of the job at once; `code` becomes the job's exit code.
   [[noreturn]] void abort(int code) noexcept;
@@ -53,12 +74,37 @@ class Session {
   const Communicator& communicator() const noexcept { return *communicator_; }
 
  private:
+  friend class NodeCores;
+
+  Patience patience() const noexcept { return oversubscribed_ ? Patience::yield_only : Patience::spin_first; }
+
   int exceptions_before_;
   std::unique_ptr<Communicator> communicator_;
+  std::unique_ptr<Communicator> node_;
   Rank rank_ = 0;
   std::uint32_t size_ = 1;
   std::uint32_t nodes_ = 1;
+  std::uint32_t ranks_on_node_ = 1;
+  bool first_on_node_ = true;
+  CoreSet node_cores_{};
   bool oversubscribed_ = false;
+};
+
+/// While it lives, this thread and those that it starts may run on every core that any rank of the node may run on: for
+/// work that one rank does for all of them while they wait.
+class NodeCores {
+ public:
+  explicit NodeCores(const Session& session) noexcept;
+  NodeCores(const NodeCores&) = delete;
+  NodeCores& operator=(const NodeCores&) = delete;
+  ~NodeCores();
+
+  /// How many threads are the node's ranks' share: one a rank, but no more than there are cores.
+  unsigned threads() const noexcept { return threads_; }
+
+ private:
+  CoreSet before_{};
+  unsigned threads_;
 };
 
 }  // namespace tessera::scheduler::mpi
