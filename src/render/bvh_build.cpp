@@ -154,25 +154,6 @@ struct BvhBuild::Task {
   int depth;
 };
 
-/// Where items are, and where there is room for as many: parts move from one place to the other and back.
-class BvhBuild::Items {
- public:
-  explicit Items(std::size_t count)
-      : one_(huge_array<Item>(count)), other_(huge_array<Item>(count)), end_(one_.get() + count) {}
-
-  Item* begin() const noexcept { return one_.get(); }
-  Item* end() const noexcept { return end_; }
-  Item* room_for(const Range& range) const noexcept {
-    const bool is_in_one = !std::less<>{}(range.begin, one_.get()) && !std::less<>{}(end_, range.end);
-    return is_in_one ? other_.get() + (range.begin - one_.get()) : one_.get() + (range.begin - other_.get());
-  }
-
- private:
-  HugeArray<Item> one_;
-  HugeArray<Item> other_;
-  Item* end_;
-};
-
 BvhBuild::BvhBuild(std::span<const Sphere> spheres, unsigned threads) : spheres_(spheres), threads_(threads) {
   // Measure the spheres, chunk by chunk
   const std::size_t chunks = (spheres.size() + kChunk - 1) / kChunk;
@@ -195,10 +176,10 @@ BvhBuild::BvhBuild(std::span<const Sphere> spheres, unsigned threads) : spheres_
   if (all.count == 0) return;
 
   // Make items of them
-  const Items items(all.count);
+  const auto items = huge_array<Item>(all.count);
   std::vector<Range> ranges(chunks);
   parallel_for(threads, chunks, [&](std::size_t i) {
-    Item* at = items.begin() + extents[i].count;
+    Item* at = items.get() + extents[i].count;
     for (const Sphere& sphere : chunk(i)) {
       if (sphere.radius == 0) continue;
       const Vec3 c = space_.from_scene(sphere.center);
@@ -208,7 +189,7 @@ BvhBuild::BvhBuild(std::span<const Sphere> spheres, unsigned threads) : spheres_
       ranges[i].include(*at++);
     }
   });
-  Range root{items.begin(), items.end()};
+  Range root{items.get(), items.get() + all.count};
   for (const Range& range : ranges) {
     root.box.include(range.box);
     root.centers.include(range.centers);
@@ -217,7 +198,7 @@ BvhBuild::BvhBuild(std::span<const Sphere> spheres, unsigned threads) : spheres_
   // The top together, then each subtree by one thread, large ones first
   std::vector<Task> tasks;
   if (root.count() > kMostInSubtree) {
-    build_top(root, 0, items, tasks);
+    build_top(root, 0, tasks);
   } else {
     tasks.push_back({root, 0});
   }
@@ -230,7 +211,8 @@ BvhBuild::BvhBuild(std::span<const Sphere> spheres, unsigned threads) : spheres_
     const Task& task = tasks[order[i]];
     part.leaves.reserve(task.range.count() / 4);
     part.nodes.reserve(task.range.count() / 24 + 1);
-    build_subtree(task.range, task.depth, items, part);
+    const auto room = huge_array<Item>(task.range.count());
+    build_subtree(task.range, task.depth, room.get(), part);
   });
   for (const Part& part : parts_) {
     node_count_ += part.nodes.size();
@@ -238,10 +220,10 @@ BvhBuild::BvhBuild(std::span<const Sphere> spheres, unsigned threads) : spheres_
   }
 }
 
-std::uint32_t BvhBuild::build_top(const Range& range, int depth, const Items& items, std::vector<Task>& tasks) {
+std::uint32_t BvhBuild::build_top(const Range& range, int depth, std::vector<Task>& tasks) {
   const Parts parts = parts_of(range, depth, [&](const Range& part) {
-    return part.count() < kFewToShare ? split(part, items.room_for(part))
-                                      : split_by_threads(part, items.room_for(part), threads_);
+    if (part.count() >= kFewToShare) return split_by_threads(part, threads_);
+    return split(part, std::vector<Item>(part.count()).data());
   });
   auto& [nodes, leaves] = parts_[0];
   const auto index = static_cast<std::uint32_t>(nodes.size());
@@ -252,7 +234,7 @@ std::uint32_t BvhBuild::build_top(const Range& range, int depth, const Items& it
     if (parts[i].count() <= kLeafSize) {
       child = add_leaf(parts[i], parts_[0]);
     } else if (parts[i].count() > kMostInSubtree) {
-      child = build_top(parts[i], depth + 1, items, tasks);
+      child = build_top(parts[i], depth + 1, tasks);
     } else {
       joints_.push_back({index, i});
       tasks.push_back({parts[i], depth + 1});
@@ -262,8 +244,8 @@ std::uint32_t BvhBuild::build_top(const Range& range, int depth, const Items& it
   return index;
 }
 
-std::uint32_t BvhBuild::build_subtree(const Range& range, int depth, const Items& items, Part& to) const {
-  const Parts parts = parts_of(range, depth, [&](const Range& part) { return split(part, items.room_for(part)); });
+std::uint32_t BvhBuild::build_subtree(const Range& range, int depth, Item* room, Part& to) const {
+  const Parts parts = parts_of(range, depth, [&](const Range& part) { return split(part, room); });
   const auto index = static_cast<std::uint32_t>(to.nodes.size());
   to.nodes.push_back(node_around(parts));
   // All leaves' spheres are on their way from memory before the first is needed
@@ -274,7 +256,7 @@ std::uint32_t BvhBuild::build_subtree(const Range& range, int depth, const Items
   for (std::size_t i = 0; i != kTreeWidth; ++i) {
     if (parts[i].count() == 0) continue;
     const std::uint32_t child =
-        parts[i].count() <= kLeafSize ? add_leaf(parts[i], to) : build_subtree(parts[i], depth + 1, items, to);
+        parts[i].count() <= kLeafSize ? add_leaf(parts[i], to) : build_subtree(parts[i], depth + 1, room, to);
     to.nodes[index].child[i] = child;
   }
   return index;

@@ -11,6 +11,7 @@
 
 namespace tessera::render {
 
+struct Item;
 struct Range;
 
 /// Builds the tree top-down: each node is split in two where the surface area heuristic expects the cheapest
@@ -50,11 +51,10 @@ class BvhBuild {
     std::size_t lane;
   };
   struct Task;
-  class Items;
 
   /// Both return the new node's index in its part.
-  std::uint32_t build_top(const Range& range, int depth, const Items& items, std::vector<Task>& tasks);
-  std::uint32_t build_subtree(const Range& range, int depth, const Items& items, Part& to) const;
+  std::uint32_t build_top(const Range& range, int depth, std::vector<Task>& tasks);
+  std::uint32_t build_subtree(const Range& range, int depth, Item* room, Part& to) const;
   std::uint32_t add_leaf(const Range& range, Part& to) const;
 
   std::span<const Sphere> spheres_;

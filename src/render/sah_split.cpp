@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "render/parallel_for.h"
@@ -125,18 +127,11 @@ void set_boxes(Range& left, Range& right, const Histogram& histogram, std::size_
   }
 }
 
-/// Where items go: the left ones to begin ... middle, the right ones to `right` and on.
-struct Places {
-  Item* left;
-  Item* left_end;
-  Item* right;
-  Item* right_end;
-};
-
-/// Sorts items to the left and right without a branch that could be guessed wrong: each goes to both places, and one
-/// of them moves on. `to.left` may be `begin`. Returns the bounds of both parts' centres.
-std::array<Bounds, 2> sort_apart(const Item* begin, const Item* end, const Binning& binning, const Plane& plane,
-                                 Places to) noexcept {
+/// Puts the items that go left in front of `middle` and the others behind it, without a branch that could be guessed
+/// wrong: each item goes to both places, and one of them moves on. Returns the bounds of both parts' centres.
+/// shapes:  middle - begin items go left; room holds the others
+std::array<Bounds, 2> sort_apart(Item* begin, Item* end, const Binning& binning, const Plane& plane, Item* middle,
+                                 Item* room) noexcept {
   const Float4 nowhere = Float4{} + Bounds::kInf;
   Bounds left = Bounds::empty();
   Bounds right = Bounds::empty();
@@ -149,22 +144,79 @@ std::array<Bounds, 2> sort_apart(const Item* begin, const Item* end, const Binni
     right.include({in_left ? nowhere : center, in_left ? -nowhere : center});
     return is_left;
   };
+  Item* next_left = begin;
+  Item* next_right = room;
+  Item* const room_end = room + (end - middle);
   const Item* at = begin;
-  for (; to.left != to.left_end && to.right != to.right_end; ++at) {
+  for (; next_left != middle && next_right != room_end; ++at) {
     const Item item = *at;
     const bool is_left = sort(item);
-    *to.left = item;
-    *to.right = item;
-    to.left += is_left ? 1 : 0;
-    to.right += is_left ? 0 : 1;
+    *next_left = item;
+    *next_right = item;
+    next_left += is_left ? 1 : 0;
+    next_right += is_left ? 0 : 1;
   }
   // One part is complete: the rest is the other's
-  Item* rest = to.left == to.left_end ? to.right : to.left;
+  Item* rest = next_left == middle ? next_right : next_left;
   for (; at != end; ++at) {
     sort(*at);
     *rest++ = *at;
   }
+  std::copy(room, room_end, middle);
   return {left, right};
+}
+
+std::size_t count_left(const Histogram& histogram, const Plane& plane) noexcept {
+  const auto& counts = histogram.count[static_cast<std::size_t>(plane.axis)];
+  return std::accumulate(counts.begin(), counts.begin() + plane.bin + 1, std::size_t{0});
+}
+
+/// Items that a thread takes at a time. Once they are sorted apart, the left ones come first.
+struct Chunk {
+  Item* begin;
+  Item* end;
+  Item* middle = nullptr;
+  Histogram histogram{0};
+  std::array<Bounds, 2> centers{Bounds::empty(), Bounds::empty()};
+};
+
+std::vector<Chunk> chunks_of(const Range& range) {
+  std::vector<Chunk> chunks;
+  for (Item* at = range.begin; at != range.end; at = chunks.back().end) {
+    chunks.push_back({at, at + std::min(kChunk, static_cast<std::size_t>(range.end - at))});
+  }
+  return chunks;
+}
+
+/// Two runs of items that are to change places.
+struct Exchange {
+  Item* one;
+  Item* other;
+  std::size_t count;
+};
+
+/// What brings sorted chunks' left items before `middle` and their right ones behind it.
+std::vector<Exchange> exchanges_of(std::span<const Chunk> chunks, Item* middle) {
+  struct Run {
+    Item* begin;
+    Item* end;
+  };
+  std::vector<Run> rights;  // before the middle
+  std::vector<Run> lefts;   // behind it: as many
+  for (const Chunk& chunk : chunks) {
+    if (chunk.middle < std::min(chunk.end, middle)) rights.push_back({chunk.middle, std::min(chunk.end, middle)});
+    if (std::max(chunk.begin, middle) < chunk.middle) lefts.push_back({std::max(chunk.begin, middle), chunk.middle});
+  }
+  std::vector<Exchange> exchanges;
+  for (auto right = rights.begin(), left = lefts.begin(); right != rights.end();) {
+    const std::ptrdiff_t count = std::min(right->end - right->begin, left->end - left->begin);
+    exchanges.push_back({right->begin, left->begin, static_cast<std::size_t>(count)});
+    right->begin += count;
+    left->begin += count;
+    if (right->begin == right->end) ++right;
+    if (left->begin == left->end) ++left;
+  }
+  return exchanges;
 }
 
 }  // namespace
@@ -176,35 +228,16 @@ std::pair<Range, Range> split(const Range& range, Item* room) noexcept {
   const Plane plane = best_plane(histogram, binning);
   if (!plane.cuts()) return halve(range);
 
-  const auto& counts = histogram.count[static_cast<std::size_t>(plane.axis)];
-  std::size_t left_count = 0;
-  for (int i = 0; i <= plane.bin; ++i) left_count += counts[static_cast<std::size_t>(i)];
-  Item* const middle = range.begin + left_count;
-  const auto centers =
-      sort_apart(range.begin, range.end, binning, plane, {range.begin, middle, room, room + (range.end - middle)});
-  std::copy(room, room + (range.end - middle), middle);
+  Item* const middle = range.begin + count_left(histogram, plane);
+  const auto centers = sort_apart(range.begin, range.end, binning, plane, middle, room);
   Range left{range.begin, middle, Bounds::empty(), centers[0]};
   Range right{middle, range.end, Bounds::empty(), centers[1]};
   set_boxes(left, right, histogram, binning.bins(), plane);
   return {left, right};
 }
 
-std::pair<Range, Range> split_by_threads(const Range& range, Item* to, unsigned threads) {
-  struct Chunk {
-    Item* begin;
-    Item* end;
-    Histogram histogram{0};
-    Item* left_to = nullptr;
-    Item* right_to = nullptr;
-    std::array<Bounds, 2> centers{Bounds::empty(), Bounds::empty()};
-  };
-  std::vector<Chunk> chunks;
-  for (Item* at = range.begin; at != range.end;) {
-    Item* const end = at + std::min(kChunk, static_cast<std::size_t>(range.end - at));
-    chunks.push_back({at, end});
-    at = end;
-  }
-
+std::pair<Range, Range> split_by_threads(const Range& range, unsigned threads) {
+  std::vector<Chunk> chunks = chunks_of(range);
   const Binning binning(range);
   parallel_for(threads, chunks.size(), [&](std::size_t i) {
     chunks[i].histogram = Histogram(binning.bins());
@@ -213,35 +246,20 @@ std::pair<Range, Range> split_by_threads(const Range& range, Item* to, unsigned 
   Histogram histogram(binning.bins());
   for (const Chunk& chunk : chunks) histogram.include(chunk.histogram, binning.bins());
   const Plane plane = best_plane(histogram, binning);
-  if (!plane.cuts()) {
-    std::copy(range.begin, range.end, to);
-    return halve({to, to + range.count(), range.box, range.centers});
-  }
+  if (!plane.cuts()) return halve(range);
 
-  // Each chunk has its place in both parts
-  const auto left_count = [&](const Histogram& part) {
-    const auto& counts = part.count[static_cast<std::size_t>(plane.axis)];
-    std::size_t sum = 0;
-    for (int i = 0; i <= plane.bin; ++i) sum += counts[static_cast<std::size_t>(i)];
-    return sum;
-  };
-  Range left{to, to + left_count(histogram)};
-  Range right{left.end, to + range.count()};
-  Item* left_to = left.begin;
-  Item* right_to = right.begin;
-  for (Chunk& chunk : chunks) {
-    const std::size_t lefts = left_count(chunk.histogram);
-    chunk.left_to = left_to;
-    chunk.right_to = right_to;
-    left_to += lefts;
-    right_to += static_cast<std::size_t>(chunk.end - chunk.begin) - lefts;
-  }
   parallel_for(threads, chunks.size(), [&](std::size_t i) {
+    static thread_local std::array<Item, kChunk> room;
     Chunk& chunk = chunks[i];
-    const auto count = static_cast<std::size_t>(chunk.end - chunk.begin);
-    const std::size_t lefts = left_count(chunk.histogram);
-    chunk.centers = sort_apart(chunk.begin, chunk.end, binning, plane,
-                               {chunk.left_to, chunk.left_to + lefts, chunk.right_to, chunk.right_to + count - lefts});
+    chunk.middle = chunk.begin + count_left(chunk.histogram, plane);
+    chunk.centers = sort_apart(chunk.begin, chunk.end, binning, plane, chunk.middle, room.data());
+  });
+  Range left{range.begin, range.begin + count_left(histogram, plane)};
+  Range right{left.end, range.end};
+  const std::vector<Exchange> exchanges = exchanges_of(chunks, left.end);
+  parallel_for(threads, exchanges.size(), [&](std::size_t i) {
+    const auto& [one, other, count] = exchanges[i];
+    std::swap_ranges(one, one + count, other);
   });
   for (const Chunk& chunk : chunks) {
     left.centers.include(chunk.centers[0]);

@@ -70,9 +70,9 @@ struct Range {
 /// shapes:  room holds range.count() items, which become worthless
 std::pair<Range, Range> split(const Range& range, Item* room) noexcept;
 
-/// The same cut of a large range by several threads. The parts lie in `to`, in an order that depends on nothing but
-/// that of the range; the old place becomes room.
-std::pair<Range, Range> split_by_threads(const Range& range, Item* to, unsigned threads);
+/// The same cut of a large range by several threads, with little room of their own. The order of the items depends on
+/// nothing but that before.
+std::pair<Range, Range> split_by_threads(const Range& range, unsigned threads);
 
 /// Both halves of a range as it lies.
 std::pair<Range, Range> halve(const Range& range) noexcept;
