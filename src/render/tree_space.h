@@ -25,6 +25,7 @@ struct TreeSpace {
   double extent = 0;  ///< every sphere is within this distance from the middle, in tree space
 
   Vec3 from_scene(const Vec3& p) const noexcept { return (p - base) * scale; }
+  Vec3 to_scene(const Vec3& p) const noexcept { return p / scale + base; }
 
   static float down(double x) noexcept { return static_cast<float>(x - (std::abs(x) * kRounding + kFloor)); }
   static float up(double x) noexcept { return static_cast<float>(x + (std::abs(x) * kRounding + kFloor)); }
