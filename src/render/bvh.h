@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -30,6 +31,14 @@ struct alignas(32) TreeLeaf {
   float center[3][kTreeWidth];
   float radius[kTreeWidth];  ///< with the sphere's share of the error; see TreeRay
   SurfaceId id[kTreeWidth];  ///< none in the lanes that are left over
+
+  /// Without spheres: no ray meets any of its lanes.
+  static TreeLeaf empty() noexcept {
+    TreeLeaf leaf{};
+    std::fill(std::begin(leaf.radius), std::end(leaf.radius), -kNowhere);
+    std::fill(std::begin(leaf.id), std::end(leaf.id), SurfaceId::none);
+    return leaf;
+  }
 };
 
 /// A child: an inner node, or a leaf.

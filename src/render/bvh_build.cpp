@@ -95,9 +95,7 @@ TreeNode node_around(const Parts& parts) noexcept {
 }
 
 TreeLeaf leaf_of(const Range& range, std::span<const Sphere> spheres, const TreeSpace& space) noexcept {
-  TreeLeaf leaf{};
-  std::fill(std::begin(leaf.radius), std::end(leaf.radius), -TreeLeaf::kNowhere);
-  std::fill(std::begin(leaf.id), std::end(leaf.id), SurfaceId::none);
+  TreeLeaf leaf = TreeLeaf::empty();
   for (std::size_t lane = 0; lane != range.count(); ++lane) {
     const std::uint32_t index = range.begin[lane].index();
     const Vec3 c = space.from_scene(spheres[index].center);

@@ -22,6 +22,8 @@ class Region {
   /// first alone, for that is the one to be seen.
   const std::vector<SurfaceId>& walls() const noexcept { return walls_; }
   bool is_inside(SurfaceId sphere) const noexcept { return Placement::holds(enclosing_, sphere); }
+  /// Whether no sphere is around the path.
+  bool is_open() const noexcept { return enclosing_.empty(); }
   /// +1 on the side that the plane's normal points to, -1 on the other.
   int side_of(std::size_t plane) const noexcept { return plane_sides_[plane]; }
 

@@ -53,6 +53,7 @@ TileRenderer::TileRenderer(const Scene& scene, PixelFormat format, Tracer tracer
       camera_(scene.data().camera.value(), scene.data().image.width, scene.data().image.height),
       trace_options_{scene.data().image.max_bounces, scene.data().image.shade},
       grid_(static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(scene.data().image.samples))))) {
+  wavefront_ = std::make_shared<Wavefront>(scene_, trace_options_);
   if (camera_.projection() != Projection::perspective) return;
   const Ray center = camera_.through(0, 0);
   eye_placement_ = scene.placement_of(center.origin);
@@ -64,7 +65,6 @@ RayCounts TileRenderer::render(const Rect& tile, const TilePixels& out,
   const bool colors_alone = out.signatures.empty() && out.errors.empty();
   if (tracer_ == Tracer::reference || !colors_alone) return render_one_by_one(tile, out, between_slices);
   RayCounts counts;
-  Wavefront wavefront(scene_, trace_options_);
   std::optional<avx2::Raster> raster;
   if (can_draw()) raster.emplace(scene_, camera_, *region_);
   std::uint32_t quiet_blocks = 0;
@@ -72,9 +72,9 @@ RayCounts TileRenderer::render(const Rect& tile, const TilePixels& out,
   for (const Rect& block : tile_grid(tile, side, side)) {
     const bool is_drawn = raster && drawing_.pays();
     if (raster && !is_drawn) drawing_.skip(block.pixels() * grid_ * grid_);
-    const std::vector<Rgb> pixels = is_drawn
-                                        ? drawn_pixels(block, *raster, wavefront, counts, between_slices, quiet_blocks)
-                                        : block_pixels(block, wavefront, counts, between_slices);
+    const std::vector<Rgb> pixels =
+        is_drawn ? drawn_pixels(block, *raster, *wavefront_, counts, between_slices, quiet_blocks)
+                 : block_pixels(block, *wavefront_, counts, between_slices);
     const Rgb* pixel = pixels.data();
     for (std::uint32_t y = block.y - tile.y; y != block.y - tile.y + block.height; ++y) {
       const std::size_t first = std::size_t{y} * tile.width + (block.x - tile.x);

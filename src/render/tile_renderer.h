@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,13 +37,14 @@ struct TilePixels {
 
 class Wavefront;
 
-/// For one thread: it remembers how it fared, which never changes a pixel.
+/// Renders a picture tile by tile. What it remembers of earlier tiles never changes a pixel.
 class TileRenderer {
  public:
   /// requires: scene has a camera (see framed_camera) and outlives the renderer
   TileRenderer(const Scene& scene, PixelFormat format, Tracer tracer = Tracer::fast);
 
   /// Renders the pixels of `tile`, in coordinates of the whole picture, and calls `between_slices` every 0.1 ms or so.
+  /// Not for two threads at once.
   /// requires: a reference is not asked for errors, for it knows no bound on its own
   RayCounts render(const Rect& tile, const TilePixels& out, const std::function<void()>& between_slices) const;
 
@@ -78,9 +80,10 @@ class TileRenderer {
   Tracer tracer_;
   CameraRays camera_;
   TraceOptions trace_options_;
-  std::uint32_t grid_;            ///< samples per pixel on each axis
-  Placement eye_placement_;       ///< perspective only
-  std::optional<Region> region_;  ///< perspective, where it is the same for every ray
+  std::shared_ptr<Wavefront> wavefront_;  ///< learns where shadows fall from tile to tile; copies share it
+  std::uint32_t grid_;                    ///< samples per pixel on each axis
+  Placement eye_placement_;               ///< perspective only
+  std::optional<Region> region_;          ///< perspective, where it is the same for every ray
   mutable DrawingRecord drawing_;
 };
 

@@ -17,7 +17,16 @@ std::span<T> first_of(std::vector<T>& buffer, std::size_t size) {
   return std::span(buffer).first(size);
 }
 
+/// What the cells of all lights together may take.
+constexpr std::size_t kCellBytes = std::size_t{64} << 20;
+
 }  // namespace
+
+Wavefront::Wavefront(const Scene& scene, const TraceOptions& options) : scene_(scene), options_(options) {
+  const std::size_t lights = scene.data().lights.size();
+  light_cells_.reserve(lights);
+  for (std::size_t light = 0; light != lights; ++light) light_cells_.emplace_back(scene, light, kCellBytes / lights);
+}
 
 void Wavefront::trace(std::span<const RayInRegion> camera_rays, std::span<Rgb> radiances, RayCounts& counts,
                       const std::function<void()>& between_slices, std::span<const SurfaceId> first_spheres) {
@@ -78,7 +87,7 @@ bool Wavefront::light_surfaces(std::size_t light_index, RayCounts& counts) {
     rays[i] = {ray_to_light(*hits_[from], shares[group].way[lane]), rays_[from].region};
   }
   counts.shadow += rays.size();
-  occlusions(scene_, rays, light_index, occluded);
+  light_cells_[light_index].occlusions(rays, occluded);
   for (std::size_t i = 0; i != lit_.size(); ++i) {
     if (occluded[i] != 0) continue;
     const auto [group, lane] = lit_[i];

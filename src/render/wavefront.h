@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "render/light_cells.h"
 #include "render/shading.h"
-#include "render/stream.h"
 #include "render/tracer.h"
 
 // Follows many paths at once, surface by surface: first all their rays are traced, then all rays to one light after
@@ -18,7 +18,7 @@ namespace tessera::render {
 class Wavefront {
  public:
   /// requires: scene outlives the wavefront
-  Wavefront(const Scene& scene, const TraceOptions& options) : scene_(scene), options_(options) {}
+  Wavefront(const Scene& scene, const TraceOptions& options);
 
   /// radiance_along of every camera ray. Calls `between_slices` after each step that took rays.
   /// shapes:  radiances.size() = camera_rays.size(); some hundreds at a time are enough. first_spheres: what is known
@@ -41,6 +41,7 @@ class Wavefront {
 
   const Scene& scene_;
   TraceOptions options_;
+  std::vector<LightCells> light_cells_;  ///< by light
   // Paths still on their way: their rays, which they are, what is seen along them weighs, and where they meet what.
   std::vector<RayInRegion> rays_;
   std::vector<std::size_t> paths_;

@@ -40,9 +40,7 @@ Bvh lopsided_tree(int depth) {
       const auto leaf = TreeChild::kLeafBit | static_cast<std::uint32_t>(leaves.size());
       nodes[level].child[child] = is_inner ? static_cast<std::uint32_t>(level + 1) : leaf;
       if (is_inner) continue;
-      TreeLeaf& one = leaves.emplace_back();
-      std::fill(std::begin(one.id), std::end(one.id), SurfaceId::none);
-      std::fill(std::begin(one.radius), std::end(one.radius), -TreeLeaf::kNowhere);
+      TreeLeaf& one = leaves.emplace_back(TreeLeaf::empty());
       one.radius[0] = 0.5F;
       one.id[0] = surface_id(leaves.size() - 1);
     }

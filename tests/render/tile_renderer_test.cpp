@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(pixels_do_not_depend_on_the_rectangle_they_are_rendered_in)
   }
 }
 
-// One renderer for all tiles, in the reverse order: nothing is carried from one to the next.
+// One renderer for all tiles, in the reverse order: what it carries from one to the next changes nothing.
 BOOST_AUTO_TEST_CASE(every_tiling_gives_the_same_picture) {
   const Scene scene(busy_scene(), Kernel::automatic);
   const TileRenderer renderer(scene, PixelFormat::rgb32f);
@@ -75,6 +75,24 @@ BOOST_AUTO_TEST_CASE(every_tiling_gives_the_same_picture) {
   for (const std::uint32_t side : {1U, 2U, 5U, 8U, 16U, 1024U}) {
     std::vector<Rect> tiles = tile_grid({0, 0, 37, 23}, side, side + 1);
     std::reverse(tiles.begin(), tiles.end());
+    for (const Rect& tile : tiles) {
+      Image part(tile.width, tile.height, PixelFormat::rgb32f);
+      renderer.render(tile, {part.bytes}, [] {});
+      BOOST_REQUIRE((part.bytes == cut(whole, tile)));
+    }
+  }
+}
+
+// By then most shadows are looked up, which another kernel never does.
+BOOST_AUTO_TEST_CASE(renderer_that_has_seen_much_gives_the_same_picture) {
+  const Rect rect{0, 0, 160, 120};
+  const SceneData data = busy_scene(rect.width, rect.height);
+  const Image whole = render_picture(Scene(data, Kernel::scalar), PixelFormat::rgb32f);
+  const Scene scene(data, Kernel::automatic);
+  const TileRenderer renderer(scene, PixelFormat::rgb32f);
+  for (const std::uint32_t side : {160U, 40U, 11U, 160U, 25U, 64U}) {
+    std::vector<Rect> tiles = tile_grid(rect, side, side);
+    if (side % 2 != 0) std::reverse(tiles.begin(), tiles.end());
     for (const Rect& tile : tiles) {
       Image part(tile.width, tile.height, PixelFormat::rgb32f);
       renderer.render(tile, {part.bytes}, [] {});
