@@ -70,7 +70,7 @@ LightLine line_of(const LightGrid& grid, const TreeSpace& space, const Ray& to_l
   return line;
 }
 
-/// More than the perpendicular from a centre to a line, and its foot, are off by for f = C - origin: see Blockers.
+/// More than the perpendicular from a centre to a line, and its foot, are off by for f = C - origin: see blockers_of.
 constexpr double kError = 0x1p-18;
 /// Outweighs twice that for everything that a line may meet.
 constexpr float kLooseness = 0x1p-16F;
