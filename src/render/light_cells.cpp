@@ -32,7 +32,6 @@ void LightCells::occlusions(std::span<const RayInRegion> to_light, std::span<std
   const bool has_root = !cells_.empty() || (rays_ >= kRaysToBegin && begin_root());
   if (!has_root || aside_ > 0) {
     aside_ -= std::min(aside_, to_light.size());
-    counts_.left += to_light.size();
     return render::occlusions(scene_, to_light, light_, occluded);
   }
   look_up(to_light, occluded);
@@ -42,11 +41,20 @@ void LightCells::occlusions(std::span<const RayInRegion> to_light, std::span<std
     if (3 * in_vain_ > 2 * looked_up_) aside_ = kAside;
     looked_up_ = in_vain_ = 0;
   }
-  counts_.decided += to_light.size() - others_.size();
-  counts_.left += others_.size();
   answers_.resize(others_.size());
   render::occlusions(scene_, others_, light_, answers_);
   for (std::size_t i = 0; i != others_.size(); ++i) occluded[places_[i]] = answers_[i];
+}
+
+LightCells::Counts LightCells::counts() const noexcept {
+  Counts counts;
+  for (const Use& use : uses_) counts.decided += use.decided;
+  counts.left = rays_ - counts.decided;
+  for (const Cell& cell : cells_) {
+    counts.made += cell.state != State::waiting;
+    counts.divided += cell.state == State::divided;
+  }
+  return counts;
 }
 
 bool LightCells::begin_root() {
@@ -100,7 +108,6 @@ void LightCells::divide(std::uint32_t index) {
   cells_[index].state = State::divided;
   cells_[index].first = static_cast<std::uint32_t>(cells_.size());
   cells_.resize(cells_.size() + kDivision * kDivision, inner);
-  ++counts_.divided;
 }
 
 }  // namespace tessera::render

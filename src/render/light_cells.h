@@ -38,7 +38,7 @@ class LightCells {
   /// shapes:  occluded.size() = to_light.size()
   void occlusions(std::span<const RayInRegion> to_light, std::span<std::uint8_t> occluded);
 
-  const Counts& counts() const noexcept { return counts_; }
+  Counts counts() const noexcept;
 
  private:
   static constexpr std::size_t kMostLeaves = 4;
@@ -101,7 +101,6 @@ class LightCells {
   std::size_t looked_up_ = 0;
   std::size_t in_vain_ = 0;
   std::size_t aside_ = 0;
-  Counts counts_;
 };
 
 }  // namespace tessera::render

@@ -199,7 +199,6 @@ Occluders occluders_in(const Bvh& bvh, const Pencil& pencil, std::size_t most) {
   cell.rays = 0;
   cell.end = found.end;
   cell.first = static_cast<std::uint32_t>(leaves_.size());
-  ++counts_.made;
   const std::size_t count = found.spheres.size();
   for (std::size_t i = 0; i < count; i += kTreeWidth) {
     cell.begins[cell.leaves++] = found.spheres[i].begin;
