@@ -8,6 +8,7 @@
 #include "render/intersect.h"
 #include "render/lanes_avx2.h"
 #include "render/light_cells.h"
+#include "render/perpendicular_avx2.h"
 #include "render/search.h"
 
 #if defined(__x86_64__)
@@ -88,17 +89,7 @@ struct Blockers {
 ///          2^-16 (3 + distance + radius) for a sphere whose foot is not beyond the distance: |C| <= 3, and
 ///          |f| <= 1.74 (distance + radius + 2.5), without the 2.5 for a point light
 Blockers blockers_of(const TreeLeaf& leaf, const LightLine& line, bool has_start) noexcept {
-  const Float8 fx = Float8::load(leaf.center[0]) - Float8::all(line.across[0]);
-  const Float8 fy = Float8::load(leaf.center[1]) - Float8::all(line.across[1]);
-  const Float8 fz = Float8::load(leaf.center[2]) - Float8::all(line.across[2]);
-  const Float8 ux = Float8::all(line.unit[0]);
-  const Float8 uy = Float8::all(line.unit[1]);
-  const Float8 uz = Float8::all(line.unit[2]);
-  const Float8 foot = fused(fz, uz, fused(fy, uy, fx * ux));
-  const Float8 px = fused_minus(foot, ux, fx);
-  const Float8 py = fused_minus(foot, uy, fy);
-  const Float8 pz = fused_minus(foot, uz, fz);
-  const Float8 square = fused(pz, pz, fused(py, py, px * px));
+  const auto [foot, square] = perpendicular(leaf, line.across, line.unit);
   const Float8 reach = Float8::load(leaf.radius);
   const Float8 error = fused(reach, Float8::all(kLooseness), Float8::all(kLooseness * (3 + line.distance)));
   const Float8 sure_reach = reach - error;

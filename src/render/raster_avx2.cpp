@@ -7,6 +7,7 @@
 #include "render/entry_points.h"
 #include "render/frustum_avx2.h"
 #include "render/lanes_avx2.h"
+#include "render/perpendicular_avx2.h"
 #include "render/raster.h"
 #include "render/search.h"
 
@@ -244,14 +245,9 @@ void Raster::draw_sphere(const Spheres& spheres, std::size_t lane, SurfaceId id)
   for (std::size_t row = spheres.first_row[lane]; row <= spheres.last_row[lane]; ++row) {
     for (std::size_t column = first; column <= last; column += kTreeWidth) {
       const std::size_t at = row * kSide + column;
-      const Float8 dx = Float8::load(&direction_[0][at]);
-      const Float8 dy = Float8::load(&direction_[1][at]);
-      const Float8 dz = Float8::load(&direction_[2][at]);
-      const Float8 foot = fused(fz, dz, fused(fy, dy, fx * dx));
-      const Float8 px = fused_minus(foot, dx, fx);
-      const Float8 py = fused_minus(foot, dy, fy);
-      const Float8 pz = fused_minus(foot, dz, fz);
-      const Float8 inside = radius_squared - fused(pz, pz, fused(py, py, px * px));
+      const auto [foot, square] = perpendicular(fx, fy, fz, Float8::load(&direction_[0][at]),
+                                                Float8::load(&direction_[1][at]), Float8::load(&direction_[2][at]));
+      const Float8 inside = radius_squared - square;
       const Float8 most = inside + slack;
       const Float8 least = inside - slack;
       const Float8 early = foot - foot_slack;

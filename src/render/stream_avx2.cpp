@@ -6,6 +6,7 @@
 #include "render/entry_points.h"
 #include "render/intersect.h"
 #include "render/lanes_avx2.h"
+#include "render/perpendicular_avx2.h"
 #include "render/search.h"
 #include "render/stream.h"
 
@@ -102,17 +103,7 @@ struct Traversal {
 
   /// As may_meet of bvh.h, for all spheres.
   LaneMask may_meet(const TreeLeaf& leaf) const noexcept {
-    const Float8 fx = Float8::load(leaf.center[0]) - Float8::all(ray.origin[0]);
-    const Float8 fy = Float8::load(leaf.center[1]) - Float8::all(ray.origin[1]);
-    const Float8 fz = Float8::load(leaf.center[2]) - Float8::all(ray.origin[2]);
-    const Float8 dx = Float8::all(ray.direction[0]);
-    const Float8 dy = Float8::all(ray.direction[1]);
-    const Float8 dz = Float8::all(ray.direction[2]);
-    const Float8 foot = fused(fz, dz, fused(fy, dy, fx * dx));
-    const Float8 px = fused_minus(foot, dx, fx);
-    const Float8 py = fused_minus(foot, dy, fy);
-    const Float8 pz = fused_minus(foot, dz, fz);
-    const Float8 square = fused(pz, pz, fused(py, py, px * px));
+    const auto [foot, square] = perpendicular(leaf, ray.origin, ray.direction);
     const Float8 reach = Float8::load(leaf.radius) + Float8::all(ray.sphere_error);
     const LaneMask met =
         (square <= reach * reach) & (Float8::all(0) <= foot + reach) & (foot - reach <= Float8::all(latest));
