@@ -28,22 +28,24 @@ class DrawingRecord {
   static constexpr std::uint64_t kTracingCost = 250;
 
   /// Whether drawing has told enough of what it was asked, and for less than tracing would have cost.
-  bool pays() const noexcept { return cost_ <= kTracingCost * asked_; }
+  bool pays() const noexcept { return kTrials * cost_ <= kTracingCost * asked_; }
 
   void add(std::uint64_t rays, std::uint64_t cost) noexcept {
-    asked_ += rays;
+    asked_ += kTrials * rays;
     cost_ += cost;
-    if (asked_ < kMemory) return;
+    if (asked_ < kTrials * kMemory) return;
     asked_ /= 2;
     cost_ /= 2;
   }
   /// Of rays that were not asked for: after many it is worth another try.
-  void skip(std::uint64_t rays) noexcept { asked_ += rays / 16; }
+  void skip(std::uint64_t rays) noexcept { asked_ += rays; }
 
  private:
   static constexpr std::uint64_t kMemory = 1 << 16;
+  /// Where drawing does not pay, one ray in so many is drawn.
+  static constexpr std::uint64_t kTrials = 16;
 
-  std::uint64_t asked_ = 0;
+  std::uint64_t asked_ = 0;  ///< rays, times kTrials
   std::uint64_t cost_ = 0;
 };
 
