@@ -5,12 +5,13 @@
 #include <atomic>
 #include <cstddef>
 #include <future>
+#include <system_error>
 #include <vector>
 
 namespace tessera::render {
 
-/// Calls visit(i) for all i < count, each once and in any order, on so many threads, of which this is one. With one
-/// thread the order ascends.
+/// Calls visit(i) for all i < count, each once and in any order, on so many threads, of which this is one, or on fewer
+/// where the system has no more. With one thread the order ascends.
 /// throws:  what `visit` throws, once all threads have come to their end
 template <class Visit>
 void parallel_for(unsigned threads, std::size_t count, Visit&& visit) {
@@ -20,8 +21,11 @@ void parallel_for(unsigned threads, std::size_t count, Visit&& visit) {
   };
   std::vector<std::future<void>> helpers;
   const std::size_t most = std::min<std::size_t>(threads, count);
-  for (std::size_t thread = 1; thread < most; ++thread) {
-    helpers.push_back(std::async(std::launch::async, take_turns));
+  helpers.reserve(most);
+  try {
+    while (helpers.size() + 1 < most) helpers.push_back(std::async(std::launch::async, take_turns));
+  } catch (const std::system_error&) {
+    // Those that are there take the turns of the others.
   }
   take_turns();
   for (std::future<void>& helper : helpers) helper.get();
