@@ -68,10 +68,10 @@ ExitCode render_alone(const RenderOptions& options, const std::string& command_l
 
 /// What rank 0 tells the others at the start: how reading went, and how many spheres follow the job if it went well.
 struct Opening {
-  ExitCode code;
+  std::int64_t code;  ///< an ExitCode
   std::uint64_t spheres;
 };
-static_assert(std::is_trivially_copyable_v<Opening> && std::is_trivially_copyable_v<render::Sphere>);
+static_assert(std::has_unique_object_representations_v<Opening> && std::is_trivially_copyable_v<render::Sphere>);
 
 std::span<std::byte> bytes_of(Opening& opening) noexcept {
   return std::as_writable_bytes(std::span(&opening, 1));
@@ -97,7 +97,7 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
   const Stopwatch broadcast;
   std::vector<render::Sphere> spheres;
   if (lead) spheres = lead->take_spheres();
-  Opening opening{code, spheres.size()};
+  Opening opening{static_cast<int>(code), spheres.size()};
   session.broadcast(bytes_of(opening));
   if (!lead) return code;
   scheduler::Bytes job = encode_job(lead->job());
@@ -120,7 +120,8 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
 ExitCode follow(Session& session) {
   Opening opening{};
   session.broadcast(bytes_of(opening));
-  if (opening.code != ExitCode::success) return opening.code;
+  const auto code = static_cast<ExitCode>(opening.code);
+  if (code != ExitCode::success) return code;
   scheduler::Bytes bytes;
   session.broadcast(bytes);
   const RenderJob job = decode_job(bytes);
