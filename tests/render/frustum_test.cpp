@@ -13,6 +13,7 @@
 #include "render/frustum_avx2.h"
 #include "render/kernel.h"
 #include "render/random.h"
+#include "render/random_spheres.h"
 #include "render/sphere.h"
 
 using namespace tessera::render;
@@ -191,19 +192,6 @@ class FrustumCheck {
   std::size_t left_out_ = 0;
 };
 
-std::vector<Sphere> cloud(Random& random, const Vec3& center, double extent, double decades, int count = 60) {
-  std::vector<Sphere> spheres;
-  for (int i = 0; i != count; ++i) {
-    const double radius = extent * random.over_decades(std::pow(10, -decades), 0.3);
-    spheres.push_back({center + random.in_box(extent), radius, MaterialIndex{0}});
-  }
-  return spheres;
-}
-
-const Sphere& one_of(Random& random, const std::vector<Sphere>& spheres) {
-  return spheres[random.below(static_cast<std::uint32_t>(spheres.size()))];
-}
-
 void look_from(FrustumCheck& check, Random& random, double nearest, double farthest, int count) {
   for (int i = 0; i != count; ++i) {
     const Sphere& aim = one_of(random, check.spheres());
@@ -224,7 +212,7 @@ BOOST_AUTO_TEST_CASE(spheres_of_all_sizes_stay_from_any_distance) {
   for (const double extent : {1.0, 1e-3, 1e-60, 1e-130}) {
     for (const double decades : {1.0, 6.0, 12.0}) {
       FrustumCheck check("extent " + std::to_string(std::log10(extent)) + ", decades " + std::to_string(decades),
-                         cloud(random, {0, 0, 0}, extent, decades));
+                         cloud(random, {0, 0, 0}, extent, decades, 60));
       look_from(check, random, extent * 1e-3, extent * 10, 300);
       look_from(check, random, extent, extent * 1e12, 300);
       // Nor are all others kept.
@@ -269,7 +257,7 @@ BOOST_AUTO_TEST_CASE(spheres_that_a_line_touches_stay) {
 
 BOOST_AUTO_TEST_CASE(pencils_open_too_wide_leave_nothing_out) {
   Random random(114);
-  FrustumCheck check("wide", cloud(random, {0, 0, 0}, 1, 2));
+  FrustumCheck check("wide", cloud(random, {0, 0, 0}, 1, 2, 60));
   for (int i = 0; i != 200; ++i) {
     const Vec3 axis = random.direction();
     const Vec3 right = random.perpendicular_to(axis);

@@ -9,26 +9,13 @@
 #include <vector>
 
 #include "render/random.h"
+#include "render/random_spheres.h"
 #include "render/tree_check.h"
 
 using namespace tessera::render;
 using namespace tessera::render::test;
 
 namespace {
-
-/// Spheres in a box of half side `extent` about `center`, radii over `decades` below a third of it.
-std::vector<Sphere> cloud(Random& random, const Vec3& center, double extent, double decades, int count = 100) {
-  std::vector<Sphere> spheres;
-  for (int i = 0; i != count; ++i) {
-    const double radius = extent * random.over_decades(std::pow(10, -decades), 0.3);
-    spheres.push_back({center + random.in_box(extent), radius, MaterialIndex{0}});
-  }
-  return spheres;
-}
-
-const Sphere& one_of(Random& random, const std::vector<Sphere>& spheres) {
-  return spheres[random.below(static_cast<std::uint32_t>(spheres.size()))];
-}
 
 /// A unit vector along an axis, the other components being zeros of either sign.
 Vec3 along_an_axis(Random& random) {
@@ -60,7 +47,7 @@ BOOST_AUTO_TEST_CASE(spheres_of_all_sizes_are_found_from_any_distance) {
   for (const double extent : {1.0, 1e-3, 1e-30, 1e-60, 1e-130}) {
     for (const double decades : {1.0, 6.0, 12.0}) {
       TreeCheck check("extent " + std::to_string(std::log10(extent)) + ", decades " + std::to_string(decades),
-                      cloud(random, {0, 0, 0}, extent, decades));
+                      cloud(random, {0, 0, 0}, extent, decades, 100));
       trace_from_afar(check, random, extent, 1e12, 300);
     }
   }
@@ -71,7 +58,7 @@ BOOST_AUTO_TEST_CASE(spheres_of_all_sizes_are_found_from_any_distance) {
 BOOST_AUTO_TEST_CASE(scene_of_hardly_any_extent_is_found) {
   Random random(102);
   for (const double extent : {1e-8, 1e-15, 1e-40, 1e-80, 1e-130}) {
-    TreeCheck check("extent " + std::to_string(std::log10(extent)), cloud(random, {0, 0, 0}, extent, 2));
+    TreeCheck check("extent " + std::to_string(std::log10(extent)), cloud(random, {0, 0, 0}, extent, 2, 100));
     for (int i = 0; i != 300; ++i) {
       const Sphere& aim = one_of(random, check.spheres());
       const Vec3 direction = along_an_axis(random);
