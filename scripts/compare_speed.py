@@ -12,13 +12,11 @@ and prints one line per scene. Trust the last columns rather than the seconds.
 
 import argparse
 import os
-import pathlib
 import statistics
 import subprocess
 import sys
-import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import interleaved
 
 
 def fail(message):
@@ -43,59 +41,33 @@ def render(tessera, scene, picture, options):
     return usage.ru_utime, picture.read_bytes()
 
 
-def measure(scene, options):
-    """User seconds of A's and of B's runs, and all the different pictures they gave."""
-    times = {options.a: [], options.b: []}
-    pictures = set()
-    with tempfile.TemporaryDirectory() as folder:
-        for round_number in range(options.repeat):
-            # Who goes first changes: the second of a pair may find the machine warmer.
-            for tessera in list(times)[:: 1 if round_number % 2 == 0 else -1]:
-                seconds, picture = render(tessera, scene, pathlib.Path(folder) / "picture.png", options)
-                times[tessera].append(seconds)
-                pictures.add(picture)
-    return times[options.a], times[options.b], pictures
-
-
-def row(scene, a, b, pictures):
-    def cells(times):
-        median = statistics.median(times)
-        return f"{median:.3f} s", f"{(max(times) - min(times)) / median:.0%}"
-
+def compare(scene, options):
+    """A row of the table, and all the different pictures."""
+    (a, b), pictures = interleaved.measure(
+        (options.a, options.b), options.repeat,
+        lambda tessera, folder: render(tessera, scene, folder / "picture.png", options))
     ratio = statistics.median(second / first for first, second in zip(a, b))
-    return [pathlib.Path(scene).stem, *cells(a), *cells(b), f"{ratio:.3f}", "same" if len(pictures) == 1 else "OTHER"]
-
-
-def line(cells, width):
-    return cells[0].ljust(width) + "".join(f"  {cell:>7}" for cell in cells[1:])
+    return [*interleaved.cells(a), *interleaved.cells(b), f"{ratio:.3f}"], pictures
 
 
 def parse(words):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("a", metavar="A", help="the program to compare with")
     parser.add_argument("b", metavar="B", help="the program to compare")
-    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="default: all of scenes/")
-    parser.add_argument("--repeat", type=int, default=7, metavar="N", help="rounds [%(default)s]")
-    parser.add_argument("--resolution", metavar="WxH", help="instead of the scene's own")
+    interleaved.add_arguments(parser)
     parser.add_argument("--kernel", help="instead of the programs' default")
     options = parser.parse_args(words)
     if options.repeat < 1:
         parser.error("--repeat must be at least 1")
     if os.path.realpath(options.a) == os.path.realpath(options.b):
         parser.error("A and B are the same file")
-    options.scenes = options.scenes or sorted((ROOT / "scenes").glob("*.toml"))
     return options
 
 
 def main(words):
     options = parse(words)
-    width = max(len(pathlib.Path(scene).stem) for scene in options.scenes)
-    print(line(["scene", "A", "spread", "B", "spread", "B/A", "picture"], width))
-    all_same = True
-    for scene in options.scenes:
-        a, b, pictures = measure(scene, options)
-        all_same = all_same and len(pictures) == 1
-        print(line(row(scene, a, b, pictures), width), flush=True)
+    all_same = interleaved.table(("A", "spread", "B", "spread", "B/A"), interleaved.scenes_of(options),
+                                 lambda scene: compare(scene, options), cell_width=7)
     return 0 if all_same else 1
 
 

@@ -14,13 +14,12 @@ that the pictures are the same bytes, and prints medians, one line per scene.
 
 import argparse
 import json
-import pathlib
 import statistics
 import subprocess
 import sys
-import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import interleaved
+
 PHASES = ("build", "render", "write")
 
 
@@ -43,63 +42,36 @@ def render(scene, ranks, folder, options):
     return seconds, picture.read_bytes()
 
 
-def measure(scene, options):
-    """The phases' seconds of all runs on one rank and on several, and all the different pictures they gave."""
-    times = {1: [], options.ranks: []}
-    pictures = set()
-    with tempfile.TemporaryDirectory() as folder:
-        for round_number in range(options.repeat):
-            # Who goes first changes: the second of a pair may find the machine warmer.
-            for ranks in list(times)[:: 1 if round_number % 2 == 0 else -1]:
-                seconds, picture = render(scene, ranks, pathlib.Path(folder), options)
-                times[ranks].append(seconds)
-                pictures.add(picture)
-    return times[1], times[options.ranks], pictures
-
-
 def speed_up(one, many, phase):
     return statistics.median(a[phase] / b[phase] if b[phase] > 0 else 1 for a, b in zip(one, many))
 
 
-def row(scene, one, many, pictures):
-    def cells(runs):
-        jobs = [seconds["job"] for seconds in runs]
-        median = statistics.median(jobs)
-        return f"{median:.3f} s", f"{(max(jobs) - min(jobs)) / median:.0%}"
-
-    return [pathlib.Path(scene).stem, *cells(one), *cells(many), f"{speed_up(one, many, 'job'):.2f}",
-            f"{statistics.median(seconds['broadcast'] for seconds in many):.3f} s",
-            *(f"{speed_up(one, many, phase):.2f}" for phase in PHASES), "same" if len(pictures) == 1 else "OTHER"]
-
-
-def line(cells, width):
-    return cells[0].ljust(width) + "".join(f"  {cell:>9}" for cell in cells[1:])
+def compare(scene, options):
+    """A row of the table, and all the different pictures."""
+    (one, many), pictures = interleaved.measure(
+        (1, options.ranks), options.repeat, lambda ranks, folder: render(scene, ranks, folder, options))
+    jobs = [interleaved.cells([seconds["job"] for seconds in runs]) for runs in (one, many)]
+    broadcast = statistics.median(seconds["broadcast"] for seconds in many)
+    return [*jobs[0], *jobs[1], f"{speed_up(one, many, 'job'):.2f}", f"{broadcast:.3f} s",
+            *(f"{speed_up(one, many, phase):.2f}" for phase in PHASES)], pictures
 
 
 def parse(words):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="default: all of scenes/")
-    parser.add_argument("--tessera", default=ROOT / "build/release/tessera", help="the program [%(default)s]")
+    interleaved.add_arguments(parser)
+    parser.add_argument("--tessera", default=interleaved.ROOT / "build/release/tessera", help="the program [%(default)s]")
     parser.add_argument("--ranks", type=int, default=2, metavar="N", help="[%(default)s]")
-    parser.add_argument("--repeat", type=int, default=7, metavar="N", help="rounds [%(default)s]")
-    parser.add_argument("--resolution", metavar="WxH", help="instead of the scene's own")
     options = parser.parse_args(words)
     if options.repeat < 1 or options.ranks < 2:
         parser.error("--repeat must be at least 1, --ranks at least 2")
-    options.scenes = options.scenes or sorted((ROOT / "scenes").glob("*.toml"))
     return options
 
 
 def main(words):
     options = parse(words)
-    width = max(len(pathlib.Path(scene).stem) for scene in options.scenes)
-    print(line(["scene", "T1", "spread", f"T{options.ranks}", "spread", "speed-up", "broadcast", *PHASES, "picture"],
-               width))
-    all_same = True
-    for scene in options.scenes:
-        one, many, pictures = measure(scene, options)
-        all_same = all_same and len(pictures) == 1
-        print(line(row(scene, one, many, pictures), width), flush=True)
+    header = ("T1", "spread", f"T{options.ranks}", "spread", "speed-up", "broadcast", *PHASES)
+    all_same = interleaved.table(header, interleaved.scenes_of(options), lambda scene: compare(scene, options),
+                                 cell_width=9)
     return 0 if all_same else 1
 
 
