@@ -14,6 +14,7 @@ packages=(
   libcli11-dev                          # the command line
   libtomlplusplus-dev                   # scene files
   libgmp-dev                            # integers of any size, for exact decisions
+  libxxhash-dev                         # checksums of what travels
 )
 if [ "${1:-}" = bench ]; then
   packages+=(libbenchmark-dev)          # benchmark programs

@@ -133,7 +133,7 @@ ExitCode follow(Session& session) {
   const TileWork work(scene, job, tiles);
   MpiTransport transport(session);
   session.barrier();
-  scheduler::run_worker(transport, work);
+  scheduler::run_worker(transport, plan_of(job, tiles), work);
   return ExitCode::success;
 }
 

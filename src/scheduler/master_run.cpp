@@ -12,6 +12,9 @@
 namespace tessera::scheduler {
 namespace {
 
+// A rank that is silent for a lease is missed within a tenth of one.
+constexpr double kTicksPerLease = 10;
+
 [[noreturn]] void refuse(Rank from, std::string_view reason) {
   throw std::runtime_error("rank " + std::to_string(from) + " sent a message that rank 0 cannot accept (" +
                            std::string(reason) + ")");
@@ -20,15 +23,25 @@ namespace {
 std::string_view problem_with(Verdict verdict) {
   switch (verdict) {
     case Verdict::accepted:
+    case Verdict::late:
       break;
     case Verdict::duplicate:
       return "it came before";
     case Verdict::unassigned:
-      return "a result of a task that the rank does not hold";
+      return "it is about a task that the rank does not hold, or a goodbye that nobody asked for";
     case Verdict::unknown:
       return "there is no such rank or task";
   }
   return {};
+}
+
+template <class Happened>
+Rank rank_of(const Happened& happened) noexcept {
+  if constexpr (requires { happened.rank; }) {
+    return happened.rank;
+  } else {
+    return kMasterRank;
+  }
 }
 
 Traffic total(const Transport& transport) {
@@ -43,6 +56,7 @@ MasterRun::MasterRun(Transport& transport, Plan plan, Work work, Accept accept)
       accept_(std::move(accept)),
       master_(plan_, transport.size()),
       work_(std::move(work), clock_, [this] { serve(); }),
+      processes_(transport.size()),
       before_(total(transport)) {
   record_.tasks.resize(plan_.tasks);
   record_.ranks.resize(transport.size());
@@ -51,7 +65,7 @@ MasterRun::MasterRun(Transport& transport, Plan plan, Work work, Accept accept)
 }
 
 Step MasterRun::step() {
-  if (is_finished()) {
+  if (master_.is_over()) {
     transport_.flush();
     return Step::finished;
   }
@@ -68,24 +82,33 @@ bool MasterRun::serve() {
     got_messages = true;
     std::visit([&](const auto& message) { on(envelope->source, message); }, decode(envelope->bytes));
   }
+  if (clock_.seconds() >= next_tick_s_) {
+    tell_master(Tick{});
+    next_tick_s_ = clock_.seconds() + plan_.lease_s / kTicksPerLease;
+  }
   return got_messages;
 }
 
 void MasterRun::on(Rank from, const HelloMessage& hello) {
   tell_master(Hello{from});
   record_.ranks[from].host = hello.host;
+  processes_[from] = hello.pid;
 }
 
 void MasterRun::on(Rank from, const ResultMessage& result) {
   // The answer goes out first: the worker needs it more urgently than the picture needs the pixels.
-  tell_master(Result{from, result.task, seconds_from_ns(result.busy_ns)});
+  const double busy_s = seconds_from_ns(result.busy_ns);
+  if (tell_master(Result{from, result.task, busy_s}) == Verdict::late) {
+    record_.faults.wasted_s += busy_s;
+    return;
+  }
   accept_(result.task, result.payload);
 
   // Take down what happened.
   busy_ns_ += result.busy_ns;
   RankRecord& rank = record_.ranks[from];
   ++rank.tasks;
-  rank.busy_s += seconds_from_ns(result.busy_ns);
+  rank.busy_s += busy_s;
   record_.tasks[index_of(result.task)] = {
       .task = result.task,
       .rank = from,
@@ -96,14 +119,27 @@ void MasterRun::on(Rank from, const ResultMessage& result) {
   if (master_.is_done()) record_.makespan_s = seconds_from_ns(clock_.elapsed_ns());
 }
 
+void MasterRun::on(Rank from, const DamagedMessage& damaged) {
+  tell_master(Damaged{from, damaged.task});
+}
+void MasterRun::on(Rank from, const ReturnMessage& returned) {
+  tell_master(Returned{from, returned.runs});
+}
+void MasterRun::on(Rank from, const AliveMessage&) {
+  tell_master(Alive{from});
+}
+void MasterRun::on(Rank from, const ByeMessage&) {
+  // It went home after all.
+  if (tell_master(Bye{from}) == Verdict::late) {
+    std::erase_if(record_.lost, [&](const LostRank& lost) { return lost.rank == from; });
+  }
+}
 void MasterRun::on(Rank from, const Malformed& malformed) {
   refuse(from, malformed.problem);
 }
-void MasterRun::on(Rank from, const AssignMessage&) {
-  refuse(from, "an assignment");
-}
-void MasterRun::on(Rank from, const StopMessage&) {
-  refuse(from, "a stop");
+template <class Other>
+void MasterRun::on(Rank from, const Other&) {
+  refuse(from, "one that only rank 0 sends");
 }
 
 void MasterRun::render(TaskId task) {
@@ -116,21 +152,22 @@ void MasterRun::update_own_seat() {
   if (master_.is_done()) return;
   Workload load{.ranks = transport_.size(), .tasks = plan_.tasks, .mean_task_s = std::nullopt};
   if (master_.accepted() > 0) load.mean_task_s = seconds_from_ns(busy_ns_) / master_.accepted();
-  const bool renders = should_render(plan_, load);
+  const bool renders = should_render(plan_, load) || master_.is_deserted();
   if (renders == seated_) return;
   seated_ = renders;
-  tell_master(renders ? Event{Hello{kMasterRank}} : Event{Leave{kMasterRank}});
+  tell_master(renders ? Event{TakeSeat{}} : Event{LeaveSeat{}});
 }
 
-void MasterRun::tell_master(const Event& event) {
+Verdict MasterRun::tell_master(const Event& event) {
   actions_.clear();
-  const Verdict verdict = master_.handle(event, actions_);
-  if (verdict != Verdict::accepted) {
-    refuse(std::visit([](const auto& happened) { return happened.rank; }, event), problem_with(verdict));
+  const Verdict verdict = master_.handle(event, clock_.seconds(), actions_);
+  if (verdict != Verdict::accepted && verdict != Verdict::late) {
+    refuse(std::visit([](const auto& happened) { return rank_of(happened); }, event), problem_with(verdict));
   }
   for (const Action& action : actions_) {
     std::visit([&](const auto& wanted) { perform(wanted); }, action);
   }
+  return verdict;
 }
 
 void MasterRun::perform(const Assign& assign) {
@@ -141,20 +178,26 @@ void MasterRun::perform(const Assign& assign) {
   }
 }
 
+void MasterRun::perform(const AskBack& ask) {
+  transport_.send(ask.rank, encode(BackMessage{ask.tasks}));
+}
+
 void MasterRun::perform(const Stop& stop) {
   transport_.send(stop.rank, encode(StopMessage{}));
-  ++stopped_;
+}
+
+void MasterRun::perform(const GiveUp& give_up) {
+  record_.lost.push_back({give_up.rank, record_.ranks[give_up.rank].host, processes_[give_up.rank]});
 }
 
 void MasterRun::perform(const Done&) {}  // the makespan is taken once the result is in its place
 
-bool MasterRun::is_finished() const noexcept {
-  return master_.is_done() && stopped_ == transport_.size() - 1;
-}
-
 RunRecord MasterRun::take_record() {
   for (RankRecord& rank : record_.ranks) rank.wait_s = std::max(0.0, record_.makespan_s - rank.busy_s);
   const Traffic now = total(transport_);
+  const double wasted_s = record_.faults.wasted_s;
+  record_.faults = master_.faults();
+  record_.faults.wasted_s = wasted_s;
   record_.messages = {now.count - before_.count, now.bytes - before_.bytes};
   return std::move(record_);
 }

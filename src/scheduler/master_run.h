@@ -18,7 +18,8 @@
 namespace tessera::scheduler {
 
 /// Joins a Master to a transport and a clock, and to a Worker of its own where rank 0 renders as well. Between the
-/// slices of its own task it answers the others at once. With one rank it is the same, and no message is sent.
+/// slices of its own task it answers the others at once.
+/// With one rank it is the same, and no message is sent.
 class MasterRun {
  public:
   /// The rank's clock starts here. `transport` must outlive this.
@@ -36,17 +37,22 @@ class MasterRun {
   bool serve();
   void on(Rank from, const HelloMessage& hello);
   void on(Rank from, const ResultMessage& result);
+  void on(Rank from, const DamagedMessage& damaged);
+  void on(Rank from, const ReturnMessage& returned);
+  void on(Rank from, const AliveMessage& alive);
+  void on(Rank from, const ByeMessage& bye);
   void on(Rank from, const Malformed& malformed);
-  void on(Rank from, const AssignMessage& assign);
-  void on(Rank from, const StopMessage& stop);
+  template <class Other>
+  void on(Rank from, const Other& other);
 
   void render(TaskId task);
   void update_own_seat();
-  void tell_master(const Event& event);
+  Verdict tell_master(const Event& event);
   void perform(const Assign& assign);
+  void perform(const AskBack& ask);
   void perform(const Stop& stop);
+  void perform(const GiveUp& give_up);
   void perform(const Done& done);
-  bool is_finished() const noexcept;
 
   Transport& transport_;
   Plan plan_;
@@ -56,9 +62,10 @@ class MasterRun {
   std::vector<Action> actions_;
   TimedWork work_;
   Worker own_;
-  bool seated_ = false;        ///< whether rank 0 takes tasks of its own
-  std::uint32_t stopped_ = 0;  ///< workers sent home
-  std::uint64_t busy_ns_ = 0;  ///< of all accepted tasks
+  bool seated_ = false;  ///< whether rank 0 takes tasks of its own
+  double next_tick_s_ = 0;
+  std::uint64_t busy_ns_ = 0;             ///< of all accepted tasks
+  std::vector<std::uint32_t> processes_;  ///< per rank, 0 before its hello
   Traffic before_;
   RunRecord record_;
 };

@@ -47,6 +47,7 @@ void require_feasible(const Plan& plan, std::uint32_t ranks) {
   if (plan.prefetch && *plan.prefetch == 0) {
     throw std::invalid_argument("prefetch must be >= 1 (a worker that holds no task renders none)");
   }
+  if (!(plan.lease_s > 0)) throw std::invalid_argument("a lease must be > 0 seconds (or nobody could keep it)");
   if (!plan.costs.empty() && plan.costs.size() != plan.tasks) {
     throw std::invalid_argument("there must be one cost per task (" + std::to_string(plan.costs.size()) + " costs, " +
                                 std::to_string(plan.tasks) + " tasks)");

@@ -30,6 +30,8 @@ struct Plan {
   std::vector<double> costs;  ///< predicted; where given, dynamic and self hand out the dearest task first
   MasterRole role = MasterRole::automatic;
   std::optional<unsigned> prefetch;  ///< tasks that a worker shall hold, instead of what the policy finds right
+  bool ask_back = true;              ///< dynamic: whether idle ranks get tasks that others hold and have not begun
+  double lease_s = 1;                ///< a worker that holds tasks and is silent for longer loses them; may be infinite
 };
 
 /// Refuses a plan that `ranks` ranks cannot carry out.

@@ -29,6 +29,25 @@ struct RankRecord {
   double wait_s = 0;  ///< makespan - busy
 };
 
+/// What went wrong on the way and was made good.
+struct Faults {
+  std::uint64_t silences = 0;  ///< times that a rank with tasks was not heard of for a lease
+  std::uint64_t reissued = 0;  ///< tasks handed out again because of that, or because a result was broken
+  std::uint64_t damaged = 0;   ///< results that arrived broken
+  std::uint64_t late = 0;      ///< results whose task another rank had delivered before
+  std::uint64_t returned = 0;  ///< tasks that a rank gave back for an idle one
+  double wasted_s = 0;         ///< spent on late results
+
+  friend bool operator==(const Faults&, const Faults&) = default;
+};
+
+/// A rank that did not come to the end, and where its process may still hang.
+struct LostRank {
+  Rank rank = 0;
+  std::string host;
+  std::uint32_t pid = 0;  ///< 0: it never said
+};
+
 /// shapes:  tasks[i] is of task i, ranks[r] of rank r
 /// units:   seconds
 struct RunRecord {
@@ -36,6 +55,8 @@ struct RunRecord {
   std::vector<TaskRecord> tasks;
   std::vector<RankRecord> ranks;
   Traffic messages;  ///< sent and received by rank 0
+  Faults faults;
+  std::vector<LostRank> lost;
 };
 
 }  // namespace tessera::scheduler

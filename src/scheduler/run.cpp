@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scheduler/run.h"
 
+#include <limits>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -25,20 +26,22 @@ RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, c
   return master.take_record();
 }
 
-void run_worker(Transport& transport, const Work& work) {
-  WorkerRun worker(transport, work);
+void run_worker(Transport& transport, const Plan& plan, const Work& work) {
+  WorkerRun worker(transport, plan, work);
   run_to_end(worker, transport);
 }
 
 RunRecord run_in_process(std::uint32_t ranks, std::uint64_t seed, const Plan& plan, const Work& work,
                          const Accept& accept) {
   require_feasible(plan, ranks);
+  Plan patient = plan;
+  patient.lease_s = std::numeric_limits<double>::infinity();
   std::mt19937_64 random(seed);
   LoopbackNetwork network(ranks, random());  // a seed of its own, or deliveries would follow the steps
-  MasterRun master(network.transport(kMasterRank), plan, work, accept);
+  MasterRun master(network.transport(kMasterRank), patient, work, accept);
   std::vector<std::unique_ptr<WorkerRun>> workers;
   for (Rank rank = 1; rank < ranks; ++rank) {
-    workers.push_back(std::make_unique<WorkerRun>(network.transport(rank), work));
+    workers.push_back(std::make_unique<WorkerRun>(network.transport(rank), patient, work));
   }
 
   std::vector<Rank> unfinished(ranks);

@@ -13,17 +13,18 @@
 namespace tessera::scheduler {
 
 /// Hands out the plan's tasks, accepts each result once, and renders too if its role says so. The makespan ends with
-/// the last acceptance; the call returns when every worker has been sent home. With one rank no message is sent.
+/// the last acceptance; the call returns when every worker has gone home or is given up. With one rank no message is
+/// sent.
 /// throws:  std::invalid_argument where the plan is not feasible, std::runtime_error where a rank breaks the protocol,
 ///          and what `work` and `accept` throw. The other ranks then wait for ever: the caller ends them.
 RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, const Accept& accept);
 
-/// Renders what rank 0 assigns until it says stop.
+/// Renders what the plan says and rank 0 assigns until it says stop. The plan is the same on all ranks.
 /// throws:  std::runtime_error on a message that it cannot follow, and what `work` throws
-void run_worker(Transport& transport, const Work& work);
+void run_worker(Transport& transport, const Plan& plan, const Work& work);
 
 /// The same with all ranks in this thread: a random rank takes the next step, messages arrive in a random order, and
-/// both follow from `seed`. One rank does without either.
+/// both follow from `seed`. One rank does without either. Nobody is given up, for ranks that take turns keep no time.
 /// throws:  as run_master and run_worker; std::logic_error if no rank makes progress any more
 RunRecord run_in_process(std::uint32_t ranks, std::uint64_t seed, const Plan& plan, const Work& work,
                          const Accept& accept);

@@ -21,7 +21,12 @@ void TimedWork::pause() {
   if (serving_) return;
   serving_ = true;
   const std::uint64_t begin_ns = clock_.elapsed_ns();
-  serve_();
+  try {
+    serve_();
+  } catch (...) {
+    serving_ = false;
+    throw;
+  }
   paused_ns_ += clock_.elapsed_ns() - begin_ns;
   serving_ = false;
 }

@@ -20,7 +20,8 @@ struct TimedResult {
 /// Does tasks one after the other, sees to the rank's messages in between their slices, and keeps the two times apart.
 class TimedWork {
  public:
-  /// `clock` must outlive this; `serve` may be called from within a task, but never from within itself.
+  /// `clock` must outlive this; `serve` is called from within a task, but never from within itself. What it throws ends
+  /// the task.
   TimedWork(Work work, const Stopwatch& clock, std::function<void()> serve);
   TimedWork(const TimedWork&) = delete;
   TimedWork& operator=(const TimedWork&) = delete;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scheduler/worker.h"
 
+#include <algorithm>
+
 namespace tessera::scheduler {
 
 void Worker::assign(const RunList& runs) {
@@ -8,6 +10,19 @@ void Worker::assign(const RunList& runs) {
   for (const TaskRun& run : runs) {
     if (run.count > 0) queue_.push_back(run);
   }
+}
+
+RunList Worker::give_back(std::uint32_t most) {
+  RunList given;
+  while (most > 0 && !queue_.empty() && given.size() < RunList::kCapacity) {
+    TaskRun& last = queue_.back();
+    const std::uint32_t count = std::min(most, last.count);
+    last.count -= count;
+    given.push(TaskRun{TaskId{index_of(last.first) + last.count}, count});
+    if (last.count == 0) queue_.pop_back();
+    most -= count;
+  }
+  return given;
 }
 
 void Worker::stop() noexcept {

@@ -14,6 +14,9 @@ class Worker {
   /// Takes tasks to do after those it has. A stopped worker takes none.
   void assign(const RunList& runs);
 
+  /// Gives up to `most` tasks back: those that it would do last, as far as they fit into a list.
+  RunList give_back(std::uint32_t most);
+
   /// Ends the work; what is still queued is dropped.
   void stop() noexcept;
 

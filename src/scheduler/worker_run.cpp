@@ -7,9 +7,16 @@
 #include <variant>
 
 #include "scheduler/host.h"
+#include "scheduler/master.h"
 
 namespace tessera::scheduler {
 namespace {
+
+// Rank 0 misses a rank that is silent for a lease. Several signs may be late before it does.
+constexpr double kSignsPerLease = 4;
+
+/// Thrown through a task that nobody waits for any more.
+struct SentHome {};
 
 [[noreturn]] void refuse(std::string_view reason) {
   throw std::runtime_error("rank 0 sent a message that a worker cannot follow (" + std::string(reason) + ")");
@@ -17,23 +24,34 @@ namespace {
 
 }  // namespace
 
-WorkerRun::WorkerRun(Transport& transport, Work work)
-    : transport_(transport), work_(std::move(work), clock_, [this] { take_messages(); }) {
-  transport_.send(kMasterRank, encode(HelloMessage{process_id(), host_name()}));
+WorkerRun::WorkerRun(Transport& transport, const Plan& plan, Work work)
+    : transport_(transport),
+      work_(std::move(work), clock_, [this] { look_up_from_task(); }),
+      sign_every_s_(plan.lease_s / kSignsPerLease) {
+  send(encode(HelloMessage{process_id(), host_name()}));
+  worker_.assign(first_tasks(plan, transport.size(), transport.rank()));
 }
 
 Step WorkerRun::step() {
   const bool got_messages = take_messages();
-  if (worker_.is_stopped()) {
-    transport_.flush();
-    return Step::finished;
-  }
+  if (worker_.is_stopped()) return go_home();
   const std::optional<TaskId> task = worker_.next();
   if (!task) return got_messages ? Step::worked : Step::idle;
-  TimedResult result = work_.run(*task);
-  transport_.send(kMasterRank,
-                  encode(ResultMessage{*task, result.start_ns, result.busy_ns, {}}, std::move(result.payload)));
+  try {
+    TimedResult result = work_.run(*task);
+    send(encode(ResultMessage{*task, result.start_ns, result.busy_ns, {}}, std::move(result.payload)));
+  } catch (const SentHome&) {
+    return go_home();
+  }
   return Step::worked;
+}
+
+Step WorkerRun::go_home() {
+  // What was sent before must not arrive after the goodbye.
+  transport_.flush();
+  send(encode(ByeMessage{}));
+  transport_.flush();
+  return Step::finished;
 }
 
 bool WorkerRun::take_messages() {
@@ -45,8 +63,22 @@ bool WorkerRun::take_messages() {
   return got_messages;
 }
 
+void WorkerRun::look_up_from_task() {
+  take_messages();
+  if (worker_.is_stopped()) throw SentHome{};
+  if (clock_.seconds() >= next_sign_s_) send(encode(AliveMessage{}));
+}
+
+void WorkerRun::send(Bytes&& message) {
+  transport_.send(kMasterRank, std::move(message));
+  next_sign_s_ = clock_.seconds() + sign_every_s_;
+}
+
 void WorkerRun::on(const AssignMessage& assign) {
   worker_.assign(assign.runs);
+}
+void WorkerRun::on(const BackMessage& back) {
+  send(encode(ReturnMessage{worker_.give_back(back.tasks)}));
 }
 void WorkerRun::on(const StopMessage&) {
   worker_.stop();
@@ -54,11 +86,9 @@ void WorkerRun::on(const StopMessage&) {
 void WorkerRun::on(const Malformed& malformed) {
   refuse(malformed.problem);
 }
-void WorkerRun::on(const HelloMessage&) {
-  refuse("a hello");
-}
-void WorkerRun::on(const ResultMessage&) {
-  refuse("a result");
+template <class Other>
+void WorkerRun::on(const Other&) {
+  refuse("one that only workers send");
 }
 
 }  // namespace tessera::scheduler

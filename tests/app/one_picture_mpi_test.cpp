@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(every_tile_size_and_policy_gives_the_same_bytes_on_this_man
     session.barrier();
     if (session.rank() != scheduler::kMasterRank) {
       const auto tiles = tiles_of(job, session.size());
-      scheduler::run_worker(transport, TileWork(scene, job, tiles));
+      scheduler::run_worker(transport, plan_of(job, tiles), TileWork(scene, job, tiles));
       continue;
     }
     const std::string files =

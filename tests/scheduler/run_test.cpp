@@ -130,11 +130,40 @@ BOOST_AUTO_TEST_CASE(the_record_adds_up) {
     BOOST_TEST(rank.host == run.ranks[0].host);
     BOOST_TEST(!rank.host.empty());
   }
-  // Three hellos and three stops, all results, and at most one assignment per hello or result.
-  BOOST_TEST(run.messages.count > 3 + 3 + results);
-  BOOST_TEST(run.messages.count <= 2 * (3 + results) + 3);
-  const std::uint64_t assigns = run.messages.count - 3 - 3 - results;
-  BOOST_TEST(run.messages.bytes == 3 * (kHelloBytes + kStopBytes) + result_bytes + assigns * kAssignBytes);
+  // Three hellos, stops and goodbyes, all results, at most one assignment per result and return, and what was asked
+  // back
+  const std::uint64_t greetings = 3 * (kHelloBytes + kSignBytes + kSignBytes);
+  BOOST_TEST(run.messages.count >= 3 + 3 + 3 + results);
+  BOOST_TEST(run.messages.bytes >= greetings + result_bytes);
+  BOOST_TEST((run.faults.silences == 0 && run.faults.reissued == 0 && run.faults.late == 0 && run.faults.damaged == 0));
+  BOOST_TEST(run.lost.empty());
+}
+
+BOOST_AUTO_TEST_CASE(every_message_is_counted) {
+  Plan plan = plan_of(Policy::dynamic, 200);
+  plan.ask_back = false;
+  const RunRecord run = run_checked(4, 3, plan);
+  std::uint64_t results = 0;
+  std::uint64_t result_bytes = 0;
+  for (const TaskRecord& task : run.tasks) {
+    if (task.rank == kMasterRank) continue;
+    ++results;
+    result_bytes += kResultHeaderBytes + task.bytes;
+  }
+  BOOST_TEST(run.messages.count <= 3 * 3 + 2 * results);
+  const std::uint64_t assigns = run.messages.count - 3 * 3 - results;
+  BOOST_TEST(run.messages.bytes == 3 * (kHelloBytes + 2 * kSignBytes) + result_bytes + assigns * kAssignBytes);
+}
+
+BOOST_AUTO_TEST_CASE(tasks_asked_back_are_done_once) {
+  // With long queues the first rank to run dry asks the others
+  std::uint64_t returned = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Plan plan = plan_of(Policy::dynamic, 60);
+    plan.prefetch = 20;
+    returned += run_checked(4, seed, plan).faults.returned;
+  }
+  BOOST_TEST(returned > 0U);
 }
 
 BOOST_AUTO_TEST_CASE(a_plan_without_tasks_ends_at_once) {
@@ -181,6 +210,9 @@ BOOST_AUTO_TEST_CASE(a_rank_that_breaks_the_protocol_is_named) {
       Bytes(3),                                                // junk
       encode(StopMessage{}),                                   // not for rank 0
       encode(AssignMessage{runs}),                             // not for rank 0
+      encode(BackMessage{1}),                                  // not for rank 0
+      encode(ByeMessage{}),                                    // nobody asked for it
+      encode(ReturnMessage{runs}),                             // a task that it does not hold
       encode(ResultMessage{TaskId{7}, 0, 0, {}}, Bytes()),     // a task that it does not hold
       encode(ResultMessage{TaskId{1000}, 0, 0, {}}, Bytes()),  // a task that there is not
   };
@@ -194,11 +226,20 @@ BOOST_AUTO_TEST_CASE(a_rank_that_breaks_the_protocol_is_named) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_worker_follows_only_assignments_and_stops) {
-  for (const Bytes& message : {Bytes(3), encode(HelloMessage{1, "x"}), encode(ResultMessage{}, Bytes())}) {
-    LoopbackNetwork network(2, 1);
-    network.transport(kMasterRank).send(1, Bytes(message));
-    BOOST_CHECK_THROW(run_worker(network.transport(1), work), std::runtime_error);
+BOOST_AUTO_TEST_CASE(a_worker_runs_until_it_is_sent_home) {
+  LoopbackNetwork network(2, 1);
+  network.transport(kMasterRank).send(1, encode(StopMessage{}));
+  run_worker(network.transport(1), plan_of(Policy::dynamic, 0), work);
+  BOOST_TEST((network.transport(1).sent() == Traffic{2, kHelloBytes + kSignBytes}));
+}
+
+BOOST_AUTO_TEST_CASE(no_lease_runs_out_in_process) {
+  Plan plan = plan_of(Policy::dynamic, 50);
+  plan.lease_s = 1e-9;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const RunRecord run = run_checked(4, seed, plan);
+    BOOST_TEST(run.faults.silences == 0U);
+    BOOST_TEST(run.lost.empty());
   }
 }
 

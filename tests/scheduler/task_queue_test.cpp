@@ -25,6 +25,12 @@ std::vector<std::uint32_t> take_all(TaskQueue& queue, Rank rank, std::uint32_t a
   return taken;
 }
 
+RunList one_task(std::uint32_t task) {
+  RunList runs;
+  runs.push(TaskId{task});
+  return runs;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(task_queue)
@@ -78,6 +84,92 @@ BOOST_AUTO_TEST_CASE(a_take_ends_where_its_runs_are_used_up) {
   BOOST_TEST(queue.remaining(0) == 47U);
   TaskQueue shared(plan_of(Policy::dynamic, 100), 2);
   BOOST_TEST(shared.take(0, 50).tasks() == 50U);
+}
+
+BOOST_AUTO_TEST_CASE(what_was_put_back_comes_before_all_others_in_the_order_of_its_return) {
+  TaskQueue queue(plan_of(Policy::dynamic, 10), 3);
+  queue.take(1, 6);
+  BOOST_TEST(!queue.has_returned());
+  queue.put_back(TaskId{4});
+  queue.put_back(TaskId{1});
+  BOOST_TEST(queue.has_returned());
+  BOOST_TEST(queue.remaining(2) == 6U);
+  BOOST_TEST((queue.take(2, 1) == one_task(4)));
+  BOOST_TEST(queue.has_returned());
+  BOOST_TEST(take_all(queue, 2, 2) == (std::vector<std::uint32_t>{1, 6, 7, 8, 9}), boost::test_tools::per_element());
+  BOOST_TEST(!queue.has_returned());
+}
+
+BOOST_AUTO_TEST_CASE(what_was_put_back_comes_before_dearer_tasks) {
+  TaskQueue queue(plan_of(Policy::dynamic, 4, {1, 9, 2, 8}), 2);
+  BOOST_TEST((queue.take(1, 1) == one_task(1)));
+  queue.take(1, 2);
+  queue.put_back(TaskId{2});
+  BOOST_TEST(take_all(queue, 1, 1) == (std::vector<std::uint32_t>{2, 0}), boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(what_an_owner_put_back_comes_to_whoever_asks) {
+  TaskQueue queue(plan_of(Policy::cyclic_rows, 8), 2);
+  queue.take(1, 2);
+  queue.put_back(TaskId{1});
+  BOOST_TEST(queue.remaining(0) == 5U);
+  BOOST_TEST(queue.remaining(1) == 3U);
+  BOOST_TEST((queue.take(0, 1) == one_task(1)));
+  BOOST_TEST(queue.remaining(1) == 2U);
+  BOOST_TEST(take_all(queue, 1, 1) == (std::vector<std::uint32_t>{5, 7}), boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(what_an_owner_has_not_had_can_be_made_everybodys) {
+  TaskQueue queue(plan_of(Policy::cyclic_rows, 8), 3);
+  queue.take(1, 1);
+  queue.put_back(TaskId{1});
+  queue.disown(1);
+  BOOST_TEST(queue.remaining(2) == 5U);
+  BOOST_TEST(take_all(queue, 2, 1) == (std::vector<std::uint32_t>{1, 4, 7, 2, 5}), boost::test_tools::per_element());
+  BOOST_TEST(queue.remaining(1) == 0U);
+  queue.disown(1);
+  BOOST_TEST(!queue.has_returned());
+  BOOST_TEST(queue.remaining(0) == 3U);
+
+  // What nobody owns stays as it is
+  TaskQueue shared(plan_of(Policy::dynamic, 8), 3);
+  shared.disown(1);
+  BOOST_TEST(!shared.has_returned());
+  BOOST_TEST(shared.remaining(1) == 8U);
+}
+
+BOOST_AUTO_TEST_CASE(a_task_can_be_put_back_again_and_again) {
+  TaskQueue queue(plan_of(Policy::self_scheduling, 1), 2);
+  queue.take(1, 1);
+  for (int times = 0; times < 3; ++times) {
+    queue.put_back(TaskId{0});
+    BOOST_TEST((queue.take(1, 5) == one_task(0)));
+    BOOST_TEST(queue.remaining(1) == 0U);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_fit_into_a_list_stays_in_its_place) {
+  TaskQueue queue(plan_of(Policy::dynamic, 20), 2);
+  queue.take(1, 12);
+  for (const std::uint32_t task : {1U, 3U, 5U, 7U}) queue.put_back(TaskId{task});
+  BOOST_TEST(queue.take(1, 10).tasks() == RunList::kCapacity);
+  BOOST_TEST(queue.remaining(1) == 9U);
+  BOOST_TEST((queue.take(1, 1) == one_task(7)));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_done_after_all_is_withdrawn) {
+  TaskQueue queue(plan_of(Policy::dynamic, 6), 2);
+  queue.take(1, 4);
+  for (const std::uint32_t task : {3U, 0U, 2U}) queue.put_back(TaskId{task});
+  queue.withdraw(TaskId{0});
+  BOOST_TEST(queue.remaining(1) == 4U);
+  queue.withdraw(TaskId{0});  // no longer here
+  queue.withdraw(TaskId{5});  // never put back: it is still to come
+  BOOST_TEST(take_all(queue, 1, 1) == (std::vector<std::uint32_t>{3, 2, 4, 5}), boost::test_tools::per_element());
+  queue.put_back(TaskId{1});
+  queue.withdraw(TaskId{1});
+  BOOST_TEST(!queue.has_returned());
+  BOOST_TEST(queue.take(1, 1).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

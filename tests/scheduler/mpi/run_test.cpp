@@ -2,8 +2,10 @@
 #include "scheduler/run.h"
 
 #include <boost/test/unit_test.hpp>
+#include <chrono>
 #include <functional>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "scheduler/all_policies.h"
@@ -30,7 +32,7 @@ RunRecord run_checked(const Plan& plan, const SizeOf& size_of) {
   };
   session.barrier();
   if (session.rank() != kMasterRank) {
-    run_worker(transport, work);
+    run_worker(transport, plan, work);
     session.barrier();
     return {};
   }
@@ -91,6 +93,43 @@ BOOST_AUTO_TEST_CASE(fewer_tasks_than_ranks_are_enough) {
 
 BOOST_AUTO_TEST_CASE(runs_can_follow_each_other_at_once) {
   for (int i = 0; i < 50; ++i) run_checked(plan_of(Policy::self_scheduling, 7), [](TaskId) { return std::size_t{5}; });
+}
+
+BOOST_AUTO_TEST_CASE(a_rank_that_stands_still_for_some_leases_costs_no_result) {
+  Session& session = session_for_tests();
+  MpiTransport transport(session);
+  Plan plan = plan_of(Policy::dynamic, 200);
+  plan.lease_s = 0.03;
+  int tasks_of_this_rank = 0;
+  const Work work = [&](TaskId task, const auto& between_slices) {
+    const bool stands_still = session.rank() + 1 == session.size() && ++tasks_of_this_rank == 5;
+    if (stands_still && session.rank() != kMasterRank) std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    between_slices();
+    return Bytes(20, fill_of(task));
+  };
+  session.barrier();
+  if (session.rank() == kMasterRank) {
+    std::vector<int> times(plan.tasks, 0);
+    run_master(transport, plan, work, [&](TaskId task, std::span<const std::byte> payload) {
+      ++times.at(index_of(task));
+      BOOST_TEST((Bytes(payload.begin(), payload.end()) == Bytes(20, fill_of(task))));
+    });
+    for (const int count : times) BOOST_TEST(count == 1);
+  } else {
+    run_worker(transport, plan, work);
+  }
+  session.barrier();
+
+  // Who was given up came home after the end: take what it still sent, up to an empty message from each
+  if (session.rank() != kMasterRank) {
+    transport.send(kMasterRank, Bytes());
+    transport.flush();
+  } else {
+    for (Rank ends = 1; ends < session.size();) {
+      if (const auto envelope = transport.receive(); envelope && envelope->bytes.empty()) ++ends;
+    }
+  }
+  session.barrier();
 }
 
 BOOST_AUTO_TEST_CASE(the_balance_of_a_run_is_within_its_limits) {
