@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "app/exit_code.h"
@@ -56,6 +57,16 @@ Size tile_size_of(const std::string& option, const std::string& text) {
   if (text.find('x') != std::string::npos) return size_of(option, text);
   const std::uint32_t side = count_of(option, text, 1);
   return {side, side};
+}
+
+double lease_of(const std::string& option, const std::string& text) {
+  if (text == "off") return std::numeric_limits<double>::infinity();
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(seconds) || seconds < 0.01) {
+    throw UsageError(option + ": \"" + text + "\" is neither a number of seconds >= 0.01 nor off");
+  }
+  return seconds;
 }
 
 render::Rect crop_of(const std::string& option, const std::string& text) {
@@ -147,6 +158,14 @@ void add_schedule_options(CLI::App& app, RenderOptions& options) {
           },
           "tiles that a worker holds [auto]")
       ->type_name("auto|N");
+  add_choice<bool>(*group, "--ask-back", {{"on", true}, {"off", false}},
+                   "whether idle ranks get tiles that others hold and have not begun [on]",
+                   [&](bool on) { options.ask_back = on; });
+  group
+      ->add_option_function<std::string>(
+          "--lease", [&](const std::string& text) { options.lease_s = lease_of("--lease", text); },
+          "seconds after which a silent rank's tiles go to others [1]")
+      ->type_name("SECONDS|off");
   add_choice<render::Kernel>(*group, "--kernel",
                              {{"auto", render::Kernel::automatic},
                               {"scalar", render::Kernel::scalar},

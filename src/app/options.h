@@ -40,6 +40,8 @@ struct RenderOptions {
   scheduler::Policy policy = scheduler::Policy::dynamic;
   scheduler::MasterRole master = scheduler::MasterRole::automatic;
   std::optional<unsigned> prefetch;
+  bool ask_back = true;
+  double lease_s = 1;
   render::Kernel kernel = render::Kernel::automatic;
   render::Tracer tracer = render::Tracer::fast;
 

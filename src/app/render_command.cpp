@@ -14,6 +14,7 @@
 #include "app/render_lead.h"
 #include "app/shared_tree.h"
 #include "scheduler/launcher.h"
+#include "scheduler/mpi/farewell.h"
 #include "scheduler/mpi/session.h"
 #include "scheduler/mpi/transport.h"
 #include "scheduler/run.h"
@@ -28,8 +29,8 @@ using scheduler::mpi::Session;
 
 /// Rank 0's way through a render, whatever the others are: `run` carries out a plan.
 template <class Run>
-void render_and_finish(RenderLead& lead, const RenderOptions& options, const Team& team, const render::Scene& scene,
-                       const Stopwatch& total, Run&& run) {
+scheduler::RunRecord render_and_finish(RenderLead& lead, const RenderOptions& options, const Team& team,
+                                       const render::Scene& scene, const Stopwatch& total, Run&& run) {
   const RenderJob& job = lead.job();
   const auto tiles = tiles_of(job, team.ranks);
   const scheduler::Plan plan = plan_of(job, tiles);
@@ -44,6 +45,7 @@ void render_and_finish(RenderLead& lead, const RenderOptions& options, const Tea
   const scheduler::RunRecord record = run(plan, work, accept);
   progress.finish();
   lead.finish(mosaic, tiles, record, total);
+  return record;
 }
 
 /// A job's scene, made whole.
@@ -111,9 +113,11 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
   MpiTransport transport(session);
   session.barrier();
   lead->times().build = build.seconds();
-  render_and_finish(*lead, options, team, scene, total, [&](const auto& plan, const auto& work, const auto& accept) {
-    return scheduler::run_master(transport, plan, work, accept);
-  });
+  const scheduler::RunRecord record = render_and_finish(*lead, options, team, scene, total,
+                                                        [&](const auto& plan, const auto& work, const auto& accept) {
+                                                          return scheduler::run_master(transport, plan, work, accept);
+                                                        });
+  scheduler::mpi::dismiss(session, record);
   return ExitCode::success;
 }
 
@@ -134,6 +138,7 @@ ExitCode follow(Session& session) {
   MpiTransport transport(session);
   session.barrier();
   scheduler::run_worker(transport, plan_of(job, tiles), work);
+  scheduler::mpi::await_dismissal(session);
   return ExitCode::success;
 }
 

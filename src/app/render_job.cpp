@@ -25,9 +25,11 @@ struct JobHeader {
   scheduler::MasterRole master;
   render::Tracer tracer;
   Layers layers;
-  std::uint8_t unused;
+  bool ask_back;
+  std::uint32_t unused;
+  double lease_s;
 };
-static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 36);
+static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 48);
 
 /// In front of a tile's pixels; its primary rays are known to everybody.
 struct TileHeader {
@@ -46,17 +48,10 @@ std::size_t delivery_size(std::size_t pixels, render::PixelFormat format, Layers
 }  // namespace
 
 scheduler::Bytes encode_job(const RenderJob& job) {
-  const JobHeader header{job.area,
-                         job.tile_width,
-                         job.tile_height,
-                         job.prefetch.value_or(0),
-                         job.format,
-                         job.kernel,
-                         job.policy,
-                         job.master,
-                         job.tracer,
-                         job.layers,
-                         {}};
+  const JobHeader header{job.area,   job.tile_width, job.tile_height, job.prefetch.value_or(0),
+                         job.format, job.kernel,     job.policy,      job.master,
+                         job.tracer, job.layers,     job.ask_back,    {},
+                         job.lease_s};
   const auto scene = io::encode_scene(job.scene);
   scheduler::Bytes bytes(sizeof header + scene.size());
   std::memcpy(bytes.data(), &header, sizeof header);
@@ -79,6 +74,8 @@ RenderJob decode_job(std::span<const std::byte> bytes) {
   job.tile_height = header.tile_height;
   job.policy = header.policy;
   job.master = header.master;
+  job.ask_back = header.ask_back;
+  job.lease_s = header.lease_s;
   if (header.prefetch > 0) job.prefetch = header.prefetch;
   return job;
 }
@@ -95,7 +92,8 @@ std::vector<render::Rect> tiles_of(const RenderJob& job, std::uint32_t ranks) {
 }
 
 scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tiles) {
-  return {job.policy, static_cast<std::uint32_t>(tiles.size()), {}, job.master, job.prefetch};
+  return {job.policy, static_cast<std::uint32_t>(tiles.size()), {}, job.master, job.prefetch, job.ask_back,
+          job.lease_s};
 }
 
 TileWork::TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles)

@@ -36,6 +36,8 @@ struct RenderJob {
   scheduler::Policy policy = scheduler::Policy::dynamic;
   scheduler::MasterRole master = scheduler::MasterRole::automatic;
   std::optional<unsigned> prefetch;
+  bool ask_back = true;
+  double lease_s = 1;
 };
 
 scheduler::Bytes encode_job(const RenderJob& job);

@@ -109,6 +109,8 @@ void RenderLead::plan_schedule() {
   job_.policy = options_.policy;
   job_.master = options_.master;
   job_.prefetch = options_.prefetch;
+  job_.ask_back = options_.ask_back;
+  job_.lease_s = options_.lease_s;
   if (tiles_along(job_.area.width, job_.tile_width) * tiles_along(job_.area.height, job_.tile_height) > kMaxTiles) {
     throw UsageError("--tile-size cuts the picture into more than 100 million tiles, use larger ones");
   }

@@ -51,6 +51,18 @@ io::Stats::Error summary_of(std::span<const float> bounds) {
   return error;
 }
 
+void print_faults(const io::Stats& stats) {
+  const io::Stats::Faults& faults = stats.faults;
+  if (faults.silences == 0 && faults.damaged == 0 && faults.lost.empty()) return;
+  std::fprintf(stderr,
+               "faults: ranks fell silent %" PRIu64 " times, %" PRIu64 " tiles arrived broken, %" PRIu64
+               " tiles were handed out again, %s wasted\n",
+               faults.silences, faults.damaged, faults.reissued, duration(faults.wasted_s).c_str());
+  for (const std::uint32_t rank : faults.lost) {
+    std::fprintf(stderr, "lost: rank %u on %s\n", rank, stats.ranks[rank].host.c_str());
+  }
+}
+
 /// A person who renders on one core of several may not know that there is more to have.
 void print_unused_cores(const io::Stats& stats, const RenderOptions& options) {
   const unsigned cores = std::thread::hardware_concurrency();
@@ -86,6 +98,9 @@ void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::s
   stats.balance = {balance.imbalance, balance.load_balance,   balance.efficiency,
                    balance.tail_s,    balance.graham_bound_s, balance.makespan_s};
   stats.messages = {run.messages.count, run.messages.bytes};
+  const scheduler::Faults& faults = run.faults;
+  stats.faults = {faults.silences, faults.reissued, faults.damaged, faults.late, faults.returned, faults.wasted_s, {}};
+  for (const scheduler::LostRank& lost : run.lost) stats.faults.lost.push_back(lost.rank);
   if (job.layers.errors) stats.error = summary_of(mosaic.errors());
 }
 
@@ -114,6 +129,7 @@ void print_report(const io::Stats& stats, const RenderOptions& options) {
                "load balance: efficiency %.1f %%, imbalance %.1f %%, tail %s, makespan %s (Graham's bound %s)\n",
                100 * stats.balance.efficiency, 100 * stats.balance.imbalance, duration(stats.balance.tail_s).c_str(),
                duration(stats.balance.makespan_s).c_str(), duration(stats.balance.graham_bound_s).c_str());
+  print_faults(stats);
   const std::uint64_t pixels = std::uint64_t{stats.image.width} * stats.image.height;
   if (stats.error && stats.error->uncertified == pixels) {
     std::fprintf(stderr, "error: all pixels uncertified\n");

@@ -77,6 +77,18 @@ toml::table to_table(const Stats::Messages& messages) {
   return toml::table{{"count", count(messages.count)}, {"bytes", count(messages.bytes)}};
 }
 
+toml::table to_table(const Stats::Faults& faults) {
+  toml::array lost;
+  for (const std::uint32_t rank : faults.lost) lost.push_back(rank);
+  return toml::table{{"silences", count(faults.silences)},
+                     {"reissued", count(faults.reissued)},
+                     {"damaged", count(faults.damaged)},
+                     {"late", count(faults.late)},
+                     {"returned", count(faults.returned)},
+                     {"wasted_s", faults.wasted_s},
+                     {"lost", std::move(lost)}};
+}
+
 toml::table to_table(const Stats::Error& error) {
   return toml::table{{"largest", error.largest}, {"uncertified", count(error.uncertified)}};
 }
@@ -101,7 +113,8 @@ std::string to_json(const Stats& stats) {
                   {"skipped", std::move(skipped)},
                   {"ranks", std::move(ranks)},
                   {"balance", to_table(stats.balance)},
-                  {"messages", to_table(stats.messages)}};
+                  {"messages", to_table(stats.messages)},
+                  {"faults", to_table(stats.faults)}};
   if (stats.error) all.insert("error", to_table(*stats.error));
   std::ostringstream json;
   json << toml::json_formatter(all) << "\n";

@@ -74,6 +74,16 @@ struct Stats {
     std::uint64_t count = 0;
     std::uint64_t bytes = 0;
   };
+  /// What went wrong between ranks and was made good.
+  struct Faults {
+    std::uint64_t silences = 0;            ///< times that a rank with tiles was not heard of for a lease
+    std::uint64_t reissued = 0;            ///< tiles handed out again because of that, or because they arrived broken
+    std::uint64_t damaged = 0;             ///< tiles that arrived broken
+    std::uint64_t late = 0;                ///< tiles that another rank had delivered before
+    std::uint64_t returned = 0;            ///< tiles that a rank gave back for an idle one
+    double wasted_s = 0;                   ///< spent on late tiles
+    std::vector<std::uint32_t> lost = {};  ///< ranks that did not come to the end
+  };
   struct Error {
     double largest = 0;             ///< bound on a linear channel's error, over all certified pixels
     std::uint64_t uncertified = 0;  ///< pixels with a decision that rounding might have flipped
@@ -92,6 +102,7 @@ struct Stats {
   std::vector<Rank> ranks;
   Balance balance;
   Messages messages;
+  Faults faults;
   std::optional<Error> error;  ///< left out where it was not asked for
 };
 

@@ -10,4 +10,8 @@ namespace tessera::scheduler {
 std::string host_name();
 std::uint32_t process_id() noexcept;
 
+/// Ends another process of this machine, if it runs the same program as this one: a number may have passed on to
+/// somebody else's.
+void end_process(std::uint32_t process) noexcept;
+
 }  // namespace tessera::scheduler

@@ -111,7 +111,7 @@ class CommandLineTest(running_program.ProgramTest):
             "mpi": "size nodes library", "schedule": "policy tile_width tile_height tiles prefetch master",
             "time_s": "read broadcast build render write total", "rays": "primary shadow mirror",
             "balance": "imbalance load_balance efficiency tail_s graham_bound_s makespan_s",
-            "messages": "count bytes",
+            "messages": "count bytes", "faults": "silences reissued damaged late returned wasted_s lost",
         }
         for key, inner in keys.items():
             self.assertEqual(set(stats[key]), set(inner.split()), key)

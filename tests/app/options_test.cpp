@@ -2,6 +2,7 @@
 #include "app/options.h"
 
 #include <boost/test/unit_test.hpp>
+#include <limits>
 #include <vector>
 
 #include "app/exit_code.h"
@@ -111,6 +112,20 @@ BOOST_AUTO_TEST_CASE(counts_must_be_whole_numbers) {
   }
   BOOST_TEST(contains(complaint({"compare", "a.png", "b.png", "--tolerance", "nan"}), "--tolerance"));
   BOOST_TEST(contains(complaint({"compare", "a.png", "b.png", "--tolerance", "inf"}), "--tolerance"));
+}
+
+BOOST_AUTO_TEST_CASE(a_lease_is_seconds_or_off) {
+  BOOST_TEST(parse_render({}).lease_s == 1);
+  BOOST_TEST(parse_render({"--lease", "2.5"}).lease_s == 2.5);
+  BOOST_TEST(parse_render({"--lease", "off"}).lease_s == std::numeric_limits<double>::infinity());
+  for (const char* lease : {"0", "-1", "0.001", "inf", "nan", "1s", "x"}) {
+    BOOST_TEST(contains(complaint({"render", "s.toml", "--lease", lease}), "--lease"), lease);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(asking_back_can_be_switched_off) {
+  BOOST_TEST(parse_render({}).ask_back);
+  BOOST_TEST(!parse_render({"--ask-back", "off"}).ask_back);
 }
 
 BOOST_AUTO_TEST_CASE(a_crop_must_be_four_numbers_of_a_non_empty_part) {

@@ -49,18 +49,21 @@ BOOST_AUTO_TEST_CASE(json_has_every_key_that_scripts_rely_on) {
   stats.ranks = {{19, "node", 20, 21, 22, 6.5, 7.5}};
   stats.balance = {8.5, 9.5, 10.5, 11.5, 12.5, 13.5};
   stats.messages = {23, 24};
-  BOOST_TEST(packed_json(stats) ==
-             R"({"balance":{"efficiency":10.5,"graham_bound_s":12.5,"imbalance":8.5,"load_balance":9.5,)"
-             R"("makespan_s":13.5,"tail_s":11.5},"command":"render",)"
-             R"("image":{"height":6,"max_bounces":8,"samples":7,"width":5},"messages":{"bytes":24,"count":23},)"
-             R"("mpi":{"library":"OpenMPI","nodes":10,"size":9},)"
-             R"("ranks":[{"busy_s":6.5,"host":"node","pixels":21,"rank":19,"rays":22,"tiles":20,"wait_s":7.5}],)"
-             R"("rays":{"mirror":17,"primary":15,"shadow":16},)"
-             R"("scene":{"lights":3,"materials":4,"planes":2,"spheres":1},)"
-             R"("schedule":{"master":"auto","policy":"dynamic","prefetch":14,"tile_height":12,"tile_width":11,)"
-             R"("tiles":13},"schema":1,"skipped":{"shadow":18},)"
-             R"("time_s":{"broadcast":1.5,"build":2.5,"read":0.5,"render":3.5,"total":5.5,"write":4.5},)"
-             R"("version":"1.2.3"})");
+  stats.faults = {25, 26, 27, 28, 29, 14.5, {30, 31}};
+  BOOST_TEST(
+      packed_json(stats) ==
+      R"({"balance":{"efficiency":10.5,"graham_bound_s":12.5,"imbalance":8.5,"load_balance":9.5,)"
+      R"("makespan_s":13.5,"tail_s":11.5},"command":"render",)"
+      R"("faults":{"damaged":27,"late":28,"lost":[30,31],"reissued":26,"returned":29,"silences":25,"wasted_s":14.5},)"
+      R"("image":{"height":6,"max_bounces":8,"samples":7,"width":5},"messages":{"bytes":24,"count":23},)"
+      R"("mpi":{"library":"OpenMPI","nodes":10,"size":9},)"
+      R"("ranks":[{"busy_s":6.5,"host":"node","pixels":21,"rank":19,"rays":22,"tiles":20,"wait_s":7.5}],)"
+      R"("rays":{"mirror":17,"primary":15,"shadow":16},)"
+      R"("scene":{"lights":3,"materials":4,"planes":2,"spheres":1},)"
+      R"("schedule":{"master":"auto","policy":"dynamic","prefetch":14,"tile_height":12,"tile_width":11,)"
+      R"("tiles":13},"schema":1,"skipped":{"shadow":18},)"
+      R"("time_s":{"broadcast":1.5,"build":2.5,"read":0.5,"render":3.5,"total":5.5,"write":4.5},)"
+      R"("version":"1.2.3"})");
 }
 
 BOOST_AUTO_TEST_CASE(json_strings_are_escaped) {

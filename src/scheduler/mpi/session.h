@@ -68,6 +68,12 @@ class Session {
   /// Whether all ranks of the node say yes.
   bool do_all_on_node(bool yes);
 
+  /// How this rank waits for others.
+  Patience patience() const noexcept { return oversubscribed_ ? Patience::yield_only : Patience::spin_first; }
+
+  /// When the session ends, the process ends with code 0 without finalising MPI, see farewell.h.
+  void never_finalize() noexcept { finalizes_ = false; }
+
   /// Ends every rank of the job at once; `code` becomes the job's exit code.
   [[noreturn]] void abort(int code) noexcept;
 
@@ -76,9 +82,8 @@ class Session {
  private:
   friend class NodeCores;
 
-  Patience patience() const noexcept { return oversubscribed_ ? Patience::yield_only : Patience::spin_first; }
-
   int exceptions_before_;
+  bool finalizes_ = true;
   std::unique_ptr<Communicator> communicator_;
   std::unique_ptr<Communicator> node_;
   Rank rank_ = 0;
