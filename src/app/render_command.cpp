@@ -83,7 +83,9 @@ std::span<std::byte> bytes_of(Opening& opening) noexcept {
 render::Scene shared_scene(Session& session, render::SceneData scene, render::Kernel kernel) {
   if (render::runnable(kernel) == render::Kernel::brute) return {std::move(scene), kernel};
   render::Bvh tree = build_on_node(session, scene.spheres);
-  return {std::move(scene), kernel, std::move(tree)};
+  auto spheres = std::move(scene.spheres);
+  auto materials = std::move(scene.materials);
+  return {std::move(spheres), std::move(materials), std::move(scene), kernel, std::move(tree)};
 }
 
 ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::string& command_line) {

@@ -11,19 +11,25 @@
 namespace tessera::render {
 
 Scene::Scene(SceneData data, Kernel kernel)
-    : data_(std::move(data)),
+    : spheres_(std::move(data.spheres)),
+      materials_(std::move(data.materials)),
+      data_(std::move(static_cast<Stage&>(data))),
       kernel_(runnable(kernel)),
-      bvh_(kernel_ == Kernel::brute ? Bvh() : build_bvh(data_.spheres)) {
+      bvh_(kernel_ == Kernel::brute ? Bvh() : build_bvh(spheres_)) {
   prepare();
 }
 
-Scene::Scene(SceneData data, Kernel kernel, Bvh tree)
-    : data_(std::move(data)), kernel_(runnable(kernel)), bvh_(std::move(tree)) {
+Scene::Scene(SharedArray<Sphere> spheres, SharedArray<Material> materials, Stage data, Kernel kernel, Bvh tree)
+    : spheres_(std::move(spheres)),
+      materials_(std::move(materials)),
+      data_(std::move(data)),
+      kernel_(runnable(kernel)),
+      bvh_(std::move(tree)) {
   prepare();
 }
 
 void Scene::prepare() {
-  const Box bounds = hittable_bounds(data_.spheres);
+  const Box bounds = hittable_bounds(spheres_);
   if (!bounds.is_empty()) {
     middle_ = 0.5 * (bounds.lo + bounds.hi);
     reach_ = bounds.reach_from(middle_);

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "render/bvh.h"
 #include "render/kernel.h"
 #include "render/plane.h"
 #include "render/scene_data.h"
+#include "render/scene_view.h"
+#include "render/shared_array.h"
 
 // A scene made ready for tracing.
 namespace tessera::render {
@@ -32,17 +35,21 @@ class Scene {
   /// throws:  std::invalid_argument for a kernel that this machine cannot run
   Scene(SceneData data, Kernel kernel);
 
-  /// With a tree over the spheres that is there already.
-  Scene(SceneData data, Kernel kernel, Bvh tree);
+  /// Of parts that others may look at as well; `tree` is over the spheres, or empty where the kernel needs none.
+  Scene(SharedArray<Sphere> spheres, SharedArray<Material> materials, Stage data, Kernel kernel, Bvh tree);
 
-  const SceneData& data() const noexcept { return data_; }
+  /// All but the spheres and the materials.
+  const Stage& data() const noexcept { return data_; }
+  std::span<const Sphere> spheres() const noexcept { return spheres_; }
+  SceneView view() const noexcept { return {spheres_, materials_, data_}; }
   Kernel kernel() const noexcept { return kernel_; }
   const Bvh& bvh() const noexcept { return bvh_; }
 
-  std::size_t sphere_count() const noexcept { return data_.spheres.size(); }
+  std::size_t sphere_count() const noexcept { return spheres_.size(); }
   bool is_sphere(SurfaceId id) const noexcept { return index_of(id) < sphere_count(); }
-  const Sphere& sphere(SurfaceId id) const noexcept { return data_.spheres[index_of(id)]; }
+  const Sphere& sphere(SurfaceId id) const noexcept { return spheres_[index_of(id)]; }
   const Plane& plane(SurfaceId id) const noexcept { return data_.planes[index_of(id) - sphere_count()]; }
+  const Material& material(MaterialIndex index) const noexcept { return materials_[static_cast<std::size_t>(index)]; }
   const Vec3& unit_normal(SurfaceId plane) const noexcept { return plane_normals_[index_of(plane) - sphere_count()]; }
   const PlaneLookBounds& plane_look(std::size_t plane) const noexcept { return plane_looks_[plane]; }
   SurfaceId plane_id(std::size_t plane) const noexcept { return surface_id(sphere_count() + plane); }
@@ -75,8 +82,8 @@ class Scene {
   template <class Visit>
   void visit_along(const Ray& ray, double inverse_length, const double& t_max, Visit&& visit) const {
     if (kernel_ != Kernel::brute) return bvh_.visit_along(ray, inverse_length, t_max, visit);
-    for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
-      if (data_.spheres[i].radius > 0 && visit(surface_id(i))) return;
+    for (std::size_t i = 0; i != spheres_.size(); ++i) {
+      if (spheres_[i].radius > 0 && visit(surface_id(i))) return;
     }
   }
 
@@ -84,8 +91,8 @@ class Scene {
   template <class Meets, class Visit>
   void visit_where(Meets&& meets, Visit&& visit) const {
     if (kernel_ != Kernel::brute) return bvh_.visit_where(meets, visit);
-    for (std::size_t i = 0; i != data_.spheres.size(); ++i) {
-      if (data_.spheres[i].radius > 0) visit(surface_id(i));
+    for (std::size_t i = 0; i != spheres_.size(); ++i) {
+      if (spheres_[i].radius > 0) visit(surface_id(i));
     }
   }
 
@@ -93,7 +100,9 @@ class Scene {
   /// Derives the rest.
   void prepare();
 
-  SceneData data_;
+  SharedArray<Sphere> spheres_;
+  SharedArray<Material> materials_;
+  Stage data_;
   Kernel kernel_;
   Bvh bvh_;
   Vec3 middle_;       ///< of the box around all spheres that can be hit

@@ -101,14 +101,18 @@ struct ImageSettings {
   Shade shade = Shade::phong;
 };
 
-struct SceneData {
-  std::vector<Sphere> spheres;
+/// All of a scene but what there may be millions of.
+struct Stage {
   std::vector<Plane> planes;
   std::vector<Light> lights;
-  std::vector<Material> materials;
   std::optional<Camera> camera;  ///< left out: framed_camera() of camera.h
   Environment environment;
   ImageSettings image;
+};
+
+struct SceneData : Stage {
+  std::vector<Sphere> spheres;
+  std::vector<Material> materials;
 };
 
 }  // namespace tessera::render

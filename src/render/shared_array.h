@@ -22,7 +22,6 @@ class SharedArray {
     memory_ = memory;
   }
 
-  operator std::span<const T>() const noexcept { return elements_; }
   const T& operator[](std::size_t i) const noexcept { return elements_[i]; }
   std::size_t size() const noexcept { return elements_.size(); }
   bool empty() const noexcept { return elements_.empty(); }

@@ -230,7 +230,7 @@ Rgb TileRenderer::mean_of_samples(const Rgb& sum) const noexcept {
 
 void TileRenderer::add_sample(const Ray& ray, const TilePixels& asked, Pixel& pixel, RayCounts& counts) const {
   if (tracer_ == Tracer::reference) {
-    const reference::QuadTracer tracer(scene_.data(), ray.origin, ray.direction);
+    const reference::QuadTracer tracer(scene_.view(), ray.origin, ray.direction);
     pixel.color += rounded(tracer.radiance(pixel.signature, counts));
     return;
   }

@@ -13,7 +13,7 @@ using Observers = std::span<PathObserver* const>;
 /// shapes:  normal is unit and faces against `incoming`
 Rgb local_radiance(const Scene& scene, const Hit& hit, const Material& material, const Vec3& normal,
                    const Vec3& incoming, const Region& region, Shade shade, RayCounts& counts, Observers observers) {
-  const SceneData& data = scene.data();
+  const Stage& data = scene.data();
   Rgb sum = ambient_radiance(scene, material);
   if (!shows_light(material)) return sum;
 

@@ -18,7 +18,7 @@ inline Cell cell_of(const Scene& scene, const SurfacePoint& hit) noexcept {
 inline const Material& material_of(const Scene& scene, const SurfacePoint& hit, Cell cell) noexcept {
   const MaterialIndex index =
       scene.is_sphere(hit.surface) ? scene.sphere(hit.surface).material : material_of(scene.plane(hit.surface), cell);
-  return scene.data().materials[static_cast<std::size_t>(index)];
+  return scene.material(index);
 }
 
 /// The hit's normal on the side that the path is on.

@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(holds_on_every_scene_of_the_collection) {
                                       counts, observers);
       if (std::isinf(path_error.bound())) continue;
       ++certified;
-      const auto exact = QuadTracer(scene.data(), ray.origin, ray.direction).radiance();
+      const auto exact = QuadTracer(scene.view(), ray.origin, ray.direction).radiance();
       const double error = std::max({error_of(seen.r, exact.x), error_of(seen.g, exact.y), error_of(seen.b, exact.z)});
       closest = std::max(closest, error / path_error.bound());
     }

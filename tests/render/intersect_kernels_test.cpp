@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(tree_and_brute_force_agree_to_the_bit) {
       for (int i = 0; i != 1500; ++i) {
         Vec3 eye = kind.center + random.in_box((i % 3 == 0 ? 1.0 : 3.0) * kind.size);
         if (i % 4 == 0) eye = {std::round(eye.x), std::round(eye.y), std::round(eye.z)};
-        const Sphere& aim = comparison.tree.data().spheres[random.below(12)];
+        const Sphere& aim = comparison.tree.spheres()[random.below(12)];
         const Vec3 target = aim.center + random.in_box(1.5 * aim.radius);
         comparison.follow(eye, i % 4 < 2 ? along_an_axis(random) : random.over_decades(1e-3, 1e3) * (target - eye));
       }

@@ -25,7 +25,7 @@ struct HitCheck {
 
   void trace(const Vec3& eye, const Vec3& direction) {
     const auto hit = hit_from(scene, eye, direction);
-    const auto exact = QuadTracer(scene.data(), eye, direction).first_hit();
+    const auto exact = QuadTracer(scene.view(), eye, direction).first_hit();
     if (!hit || !exact || index_of(hit->surface) != exact->surface) {
       wrong += hit.has_value() != exact.has_value() || hit.has_value();
       return;
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(random_scenes_show_the_right_surface) {
     Random random(65);
     for (int i = 0; i != 600; ++i) {
       const Vec3 eye = kind.center + random.in_box((i % 2 == 0 ? 1.0 : 4.0) * kind.size);
-      const Sphere& aim = check.scene.data().spheres[random.below(12)];
+      const Sphere& aim = check.scene.spheres()[random.below(12)];
       check.trace(eye, aim.center + random.in_box(1.5 * aim.radius) - eye);
     }
     BOOST_TEST_MESSAGE(kind.name << ": " << check.hits << " hits, t " << check.t_error << ", normal "

@@ -64,7 +64,7 @@ class CellsCheck {
   /// From eyes in a box, and some in and on spheres, towards spheres.
   void look_from_box(const Vec3& center, double half_side, int eyes, int rays) {
     Random random(131);
-    const auto& spheres = scene_.data().spheres;
+    const auto spheres = scene_.spheres();
     const auto some = [&] { return spheres[random.below(static_cast<std::uint32_t>(spheres.size()))]; };
     for (int i = 0; i != eyes; ++i) {
       const Sphere aim = some();

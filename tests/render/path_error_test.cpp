@@ -46,7 +46,7 @@ struct BoundCheck {
     const auto [radiance, bound] = bounded_radiance(scene, eye, direction);
     if (std::isinf(bound)) return;
     ++certified;
-    const QuadVec exact = QuadTracer(scene.data(), eye, direction).radiance();
+    const QuadVec exact = QuadTracer(scene.view(), eye, direction).radiance();
     const double error =
         std::max({error_of(radiance.r, exact.x), error_of(radiance.g, exact.y), error_of(radiance.b, exact.z)});
     exceeded += !(error <= bound);

@@ -5,6 +5,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,7 @@ class RasterCheck {
   }
   RasterCheck(const RasterCheck&) = delete;
 
-  const SceneData& data() const { return scene_.data(); }
+  std::span<const Sphere> spheres() const { return scene_.spheres(); }
   double rays() const { return static_cast<double>(rays_); }
   double unsure() const { return static_cast<double>(unsure_); }
   double entered() const { return static_cast<double>(entered_); }
@@ -120,14 +121,14 @@ class RasterCheck {
   std::size_t unlike_ = 0;
 };
 
-const Sphere& one_of(Random& random, const std::vector<Sphere>& spheres) {
+const Sphere& one_of(Random& random, std::span<const Sphere> spheres) {
   return spheres[random.below(static_cast<std::uint32_t>(spheres.size()))];
 }
 
 /// Eyes anywhere about a scene, also inside of spheres and in points where they touch.
 void draw_about(RasterCheck& check, Random& random, const Vec3& center, double size, int count) {
   for (int i = 0; i != count; ++i) {
-    const Sphere& aim = one_of(random, check.data().spheres);
+    const Sphere& aim = one_of(random, check.spheres());
     const Vec3 target = aim.center + random.in_box(1.2 * aim.radius);
     Vec3 eye = center + random.over_decades(0.1, 10) * size * random.direction();
     if (i % 4 == 1) eye = aim.center + random.in_box(0.5 * aim.radius);
@@ -211,7 +212,7 @@ BOOST_AUTO_TEST_CASE(first_spheres_at_the_rims_of_others_are_first) {
   Random random(124);
   RasterCheck check("rims", cloud_data(random, 100, 1e-4, 0.3));
   for (int i = 0; i != 1500; ++i) {
-    const Sphere& aim = one_of(random, check.data().spheres);
+    const Sphere& aim = one_of(random, check.spheres());
     const double distance = aim.radius * random.over_decades(1.001, 1e3);
     const Vec3 eye = aim.center + distance * random.direction();
     // A tangent touches at the angle from the centre whose sine is r / distance.

@@ -78,7 +78,7 @@ Vec3 some_eye(Random& random, const SceneKind& kind, const Sphere& sphere) {
 Rays rays_through(const Scene& brute, const SceneKind& kind, std::uint64_t seed) {
   Rays all{brute, {}, {}, {}};
   Random random(seed);
-  const auto some_sphere = [&] { return brute.data().spheres[random.below(12)]; };
+  const auto some_sphere = [&] { return brute.spheres()[random.below(12)]; };
   while (all.rays.size() < 500) {
     const Vec3 eye = some_eye(random, kind, some_sphere());
     const Sphere aim = some_sphere();

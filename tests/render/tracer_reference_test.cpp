@@ -34,7 +34,7 @@ struct RadianceCheck {
     const Rgb seen = seen_from(scene, eye, direction, counts, observers);
     Signature exact_signature;
     RayCounts exact_counts;
-    const QuadVec exact = QuadTracer(scene.data(), eye, direction).radiance(exact_signature, exact_counts);
+    const QuadVec exact = QuadTracer(scene.view(), eye, direction).radiance(exact_signature, exact_counts);
     other_decisions += !(signature == exact_signature && counts == exact_counts);
     const double e = std::max({error_of(seen.r, exact.x), error_of(seen.g, exact.y), error_of(seen.b, exact.z)});
     ++rays;

@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(radiance_is_bounded_by_its_parts) {
   for (const SceneKind& kind : scene_kinds()) {
     const Scene scene(random_scene(kind, 121), Kernel::automatic);
     double bound = 0.3;
-    for (const Material& m : scene.data().materials)
+    for (const Material& m : scene.view().materials)
       bound = std::max(bound, m.ambient + 1.2 * (m.diffuse + m.specular));
     Random random(121);
     double most = 0;

@@ -58,7 +58,7 @@ CameraPaths paths_through(const Scene& scene, const Vec3& center, double size, i
   CameraPaths paths;
   Random random(92);
   for (int i = 0; i != count; ++i) {
-    const auto& spheres = scene.data().spheres;
+    const auto spheres = scene.spheres();
     const Sphere& aim = spheres[random.below(static_cast<std::uint32_t>(spheres.size()))];
     const Vec3 target = aim.center + random.in_box(1.2 * aim.radius);
     Vec3 eye = center + random.in_box(3 * size);
@@ -87,7 +87,7 @@ void check_paths(const Scene& scene, std::span<const RayInRegion> rays, const Tr
 
 /// A tile as its pixels are defined, one after the other.
 Image tile_pixel_by_pixel(const Scene& scene, const Rect& tile, RayCounts& counts) {
-  const SceneData& data = scene.data();
+  const Stage& data = scene.data();
   const CameraRays camera(*data.camera, data.image.width, data.image.height);
   const auto grid = static_cast<std::uint32_t>(std::lround(std::sqrt(data.image.samples)));
   Image image(tile.width, tile.height, PixelFormat::rgb32f);

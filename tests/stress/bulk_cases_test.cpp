@@ -112,8 +112,7 @@ class PixelPath {
         segments.push_back({hit->point, reach, is_point ? 1 : std::numeric_limits<double>::infinity(), true});
       }
       const Sphere& sphere = scene.sphere(hit->surface);
-      if (bounce == scene.data().image.max_bounces ||
-          !(scene.data().materials[static_cast<std::size_t>(sphere.material)].reflection > 0)) {
+      if (bounce == scene.data().image.max_bounces || !(scene.material(sphere.material).reflection > 0)) {
         return;
       }
       const double cosine = std::abs(dot(hit->normal, ray.direction));
@@ -151,9 +150,9 @@ void check_bulk(Verdict& verdict, const std::string& name, SceneData data) {
     paths.emplace_back(scene, region, rays.through(i % kSide + 0.5, i / kSide + 0.5));
     segments.insert(segments.end(), paths.back().segments.begin(), paths.back().segments.end());
   }
-  const auto near = spheres_near(scene.data().spheres, segments);
+  const auto near = spheres_near(scene.spheres(), segments);
 
-  SceneData part = scene.data();
+  std::vector<Sphere> part;
   std::size_t wrong = 0;
   std::size_t tried = 0;
   std::size_t hits = 0;
@@ -168,11 +167,11 @@ void check_bulk(Verdict& verdict, const std::string& name, SceneData data) {
     if (!path.is_within_slack) continue;
     std::sort(indices.begin(), indices.end());
     indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-    part.spheres.clear();
-    for (const std::uint32_t index : indices) part.spheres.push_back(scene.data().spheres[index]);
+    part.clear();
+    for (const std::uint32_t index : indices) part.push_back(scene.spheres()[index]);
 
     const Segment& ray = path.segments[0];
-    const QuadTracer reference(part, ray.origin, ray.direction);
+    const QuadTracer reference({part, scene.view().materials, scene.data()}, ray.origin, ray.direction);
     const auto exact = reference.first_hit();
     const QuadVec radiance = reference.radiance();
     const Rgb seen = seen_from(scene, ray.origin, ray.direction);

@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(case_37_four_mirrors_in_a_tetrahedron) {
     PathObserver* const observers[] = {&error};
     RayCounts counts;
     const Rgb seen = seen_from(scene, ray.origin, ray.direction, counts, observers);
-    const QuadVec exact = QuadTracer(scene.data(), ray.origin, ray.direction).radiance();
+    const QuadVec exact = QuadTracer(scene.view(), ray.origin, ray.direction).radiance();
     const double off = std::max({error_of(seen.r, exact.x), error_of(seen.g, exact.y), error_of(seen.b, exact.z)});
     certified += std::isfinite(error.bound());
     above += std::isfinite(error.bound()) && !(off <= error.bound());

@@ -48,11 +48,11 @@ struct Umbra {
 
  private:
   static Shown by_cone(const Scene& scene, const Ray& ray) {
-    const auto hit = QuadTracer(scene.data(), ray.origin, ray.direction).first_hit();
+    const auto hit = QuadTracer(scene.view(), ray.origin, ray.direction).first_hit();
     if (!hit || hit->surface != 0) return Shown::other;
     const Vec3& light = scene.data().lights[0].vector;
     const bool faces = quad_dot(hit->normal, QuadVec(light) - hit->point) > 0;
-    return faces && !is_in_cone(light, scene.data().spheres[1], hit->point) ? Shown::lit : Shown::dark;
+    return faces && !is_in_cone(light, scene.spheres()[1], hit->point) ? Shown::lit : Shown::dark;
   }
   static bool is_near(const std::vector<Shown>& picture, std::size_t at, std::size_t side, Shown shown) {
     const std::size_t x = at % side;

@@ -106,7 +106,7 @@ class Collector {
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> spheres_near(const std::vector<Sphere>& spheres,
+std::vector<std::vector<std::uint32_t>> spheres_near(std::span<const Sphere> spheres,
                                                      const std::vector<Segment>& segments) {
   std::vector<Collector> collectors(segments.begin(), segments.end());
   for (std::size_t first = 0; first < spheres.size(); first += Block::kSize) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "render/scene_data.h"
@@ -21,7 +22,7 @@ struct Segment {
 };
 
 /// For each segment the indices of the spheres that could matter, by brute force.
-std::vector<std::vector<std::uint32_t>> spheres_near(const std::vector<render::Sphere>& spheres,
+std::vector<std::vector<std::uint32_t>> spheres_near(std::span<const render::Sphere> spheres,
                                                      const std::vector<Segment>& segments);
 
 }  // namespace tessera::stress

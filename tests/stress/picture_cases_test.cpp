@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(case_46_numbers_of_eight_bits) {
     for (std::size_t i = 0; i != std::size_t{image.width} * image.height; ++i) {
       const Ray ray =
           rays.through(static_cast<double>(i % image.width) + 0.5, static_cast<double>(i / image.width) + 0.5);
-      const QuadVec exact = QuadTracer(scene.data(), ray.origin, ray.direction).radiance();
+      const QuadVec exact = QuadTracer(scene.view(), ray.origin, ray.direction).radiance();
       pixels.look(std::to_integer<std::uint8_t>(image.bytes[3 * i]), exact.x, transfer);
       pixels.look(std::to_integer<std::uint8_t>(image.bytes[3 * i + 1]), exact.y, transfer);
       pixels.look(std::to_integer<std::uint8_t>(image.bytes[3 * i + 2]), exact.z, transfer);

@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(case_20_view_and_light_through_a_contact) {
     const Vec3 eye{0, 0.5, random.uniform(-0.1, 0.1)};
     const Vec3 direction = blur * random.in_box(0.1) - eye;
     check.trace(eye, direction);
-    const double exact = static_cast<double>(QuadTracer(scene.data(), eye, direction).radiance().x);
+    const double exact = static_cast<double>(QuadTracer(scene.view(), eye, direction).radiance().x);
     off += std::abs(seen_from(scene, eye, direction).r - exact) > 1e-6;
     through += !hit_from(scene, eye, direction);
   }

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(case_01_spheres_at_any_distance) {
       const Vec3 direction = passing * random.perpendicular_to(away) - eye;
       check.trace(eye, direction);
       if (passing > 0.88) continue;
-      const QuadVec exact = QuadTracer(scene.data(), eye, direction).radiance();
+      const QuadVec exact = QuadTracer(scene.view(), eye, direction).radiance();
       error = std::max(error, error_of(seen_from(scene, eye, direction).r, exact.x));
     }
     wrong += check.wrong;

@@ -71,7 +71,7 @@ struct HitCheck {
 
   void trace(const Vec3& eye, const Vec3& direction) {
     const auto hit = hit_from(scene, eye, direction);
-    const auto exact = QuadTracer(scene.data(), eye, direction).first_hit();
+    const auto exact = QuadTracer(scene.view(), eye, direction).first_hit();
     ++tried;
     hits += exact.has_value();
     if (hit.has_value() != exact.has_value() || (hit && index_of(hit->surface) != exact->surface)) {

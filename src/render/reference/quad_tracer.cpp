@@ -44,14 +44,14 @@ bool is_on(const Plane& plane, const QuadVec& point) {
 
 }  // namespace
 
-QuadTracer::QuadTracer(const SceneData& scene, const Vec3& eye, const Vec3& direction)
+QuadTracer::QuadTracer(const SceneView& scene, const Vec3& eye, const Vec3& direction)
     : scene_(scene), camera_ray_{eye, direction, kNone, {}} {
   for (const Sphere& sphere : scene.spheres) {
     const QuadVec f = QuadVec(sphere.center) - camera_ray_.origin;
     const int side = sign(quad_dot(f, f) - Quad(sphere.radius) * sphere.radius);
     inside_.push_back(sphere.radius > 0 && (side < 0 || (side == 0 && quad_dot(f, camera_ray_.direction) > 0)));
   }
-  for (const Plane& plane : scene.planes) {
+  for (const Plane& plane : scene.stage.planes) {
     const int side = sign(quad_dot(plane.normal, camera_ray_.origin - QuadVec(plane.point)));
     side_.push_back(side != 0 ? side : sign(quad_dot(plane.normal, camera_ray_.direction)));
   }
@@ -76,7 +76,7 @@ std::optional<Quad> QuadTracer::distance_to(std::size_t surface, const QuadRay& 
     return near > 0 ? near : 0;
   }
   const std::size_t index = surface - scene_.spheres.size();
-  const Plane& plane = scene_.planes[index];
+  const Plane& plane = scene_.stage.planes[index];
   const Quad towards = quad_dot(plane.normal, ray.direction);
   const bool is_own = ray.from != kNone && coincide(surface, ray.from);
   if (is_own || !(side_[index] * towards < 0)) return std::nullopt;
@@ -88,12 +88,12 @@ bool QuadTracer::coincide(std::size_t a, std::size_t b) const {
   const std::size_t spheres = scene_.spheres.size();
   if ((a < spheres) != (b < spheres)) return false;
   return a < spheres ? render::coincide(scene_.spheres[a], scene_.spheres[b])
-                     : render::coincide(scene_.planes[a - spheres], scene_.planes[b - spheres]);
+                     : render::coincide(scene_.stage.planes[a - spheres], scene_.stage.planes[b - spheres]);
 }
 
 std::optional<QuadHit> QuadTracer::nearest(const QuadRay& ray) const {
   std::optional<QuadHit> best;
-  for (std::size_t i = 0; i != scene_.spheres.size() + scene_.planes.size(); ++i) {
+  for (std::size_t i = 0; i != scene_.spheres.size() + scene_.stage.planes.size(); ++i) {
     const std::optional<Quad> t = distance_to(i, ray);
     if (t && (!best || (*t < best->t && !coincide(i, best->surface)))) best = QuadHit{i, *t, {}, {}};
   }
@@ -106,13 +106,13 @@ std::optional<QuadHit> QuadTracer::nearest(const QuadRay& ray) const {
     best->normal = inside_[best->surface] ? Quad(-1) * outward : outward;
   } else {
     const std::size_t plane = best->surface - scene_.spheres.size();
-    best->normal = Quad(side_[plane]) * quad_unit(scene_.planes[plane].normal);
+    best->normal = Quad(side_[plane]) * quad_unit(scene_.stage.planes[plane].normal);
   }
   return best;
 }
 
 bool QuadTracer::is_blocked(const QuadRay& ray, const Light& light) const {
-  for (std::size_t i = 0; i != scene_.spheres.size() + scene_.planes.size(); ++i) {
+  for (std::size_t i = 0; i != scene_.spheres.size() + scene_.stage.planes.size(); ++i) {
     const std::optional<Quad> t = distance_to(i, ray);
     if (!t) continue;
     if (light.kind == LightKind::directional) return true;
@@ -125,7 +125,8 @@ bool QuadTracer::is_blocked(const QuadRay& ray, const Light& light) const {
 
 bool QuadTracer::is_on_surface(std::size_t surface, const QuadVec& point) const {
   const std::size_t spheres = scene_.spheres.size();
-  return surface < spheres ? is_on(scene_.spheres[surface], point) : is_on(scene_.planes[surface - spheres], point);
+  return surface < spheres ? is_on(scene_.spheres[surface], point)
+                           : is_on(scene_.stage.planes[surface - spheres], point);
 }
 
 /// A ray to a light on a surface meets that at the light, unless it comes through the sphere from its far side.
@@ -139,7 +140,7 @@ bool QuadTracer::is_lit(const QuadHit& hit, const Light& light, RayCounts& count
   const QuadVec to_light = towards(light, hit.point);
   // Any point of a plane tells its side, and the one it is given by is not rounded.
   const std::size_t spheres = scene_.spheres.size();
-  const QuadVec foot = hit.surface < spheres ? hit.point : QuadVec(scene_.planes[hit.surface - spheres].point);
+  const QuadVec foot = hit.surface < spheres ? hit.point : QuadVec(scene_.stage.planes[hit.surface - spheres].point);
   if (!(quad_dot(hit.normal, towards(light, foot)) > 0)) return false;
   ++counts.shadow;
   return !is_blocked({hit.point, to_light, hit.surface, hit.normal}, light);
@@ -147,17 +148,17 @@ bool QuadTracer::is_lit(const QuadHit& hit, const Light& light, RayCounts& count
 
 QuadVec QuadTracer::reflected_light(const QuadHit& hit, const Material& material, const QuadVec& to_viewer,
                                     Signature& signature, RayCounts& counts) const {
-  QuadVec sum = Quad(material.ambient) * channelwise(color(scene_.environment.ambient), color(material.color));
+  QuadVec sum = Quad(material.ambient) * channelwise(color(scene_.stage.environment.ambient), color(material.color));
   if (material.diffuse == 0 && material.specular == 0) return sum;
-  for (const Light& light : scene_.lights) {
+  for (const Light& light : scene_.stage.lights) {
     const bool lit = is_lit(hit, light, counts);
     signature.light(lit);
     if (!lit) continue;
     const QuadVec l = quad_unit(towards(light, hit.point));
     const Quad cosine = quad_dot(hit.normal, l);
     QuadVec term = Quad(material.diffuse) * cosine * color(material.color);
-    const Quad base = scene_.image.shade == Shade::phong ? quad_dot(2 * cosine * hit.normal - l, to_viewer)
-                                                         : quad_dot(hit.normal, quad_unit(l + to_viewer));
+    const Quad base = scene_.stage.image.shade == Shade::phong ? quad_dot(2 * cosine * hit.normal - l, to_viewer)
+                                                               : quad_dot(hit.normal, quad_unit(l + to_viewer));
     if (base > 0) {
       const Quad highlight = Quad(material.specular) * quad_power(base < 1 ? base : 1, material.shininess);
       term = term + QuadVec(highlight, highlight, highlight);
@@ -189,12 +190,12 @@ QuadVec QuadTracer::radiance(Signature& signature, RayCounts& counts) const {
     weight *= k;
     // No double can tell what is left from nothing.
     if (weight < std::numeric_limits<double>::min()) return radiance;
-    if (bounce == scene_.image.max_bounces) break;
+    if (bounce == scene_.stage.image.max_bounces) break;
     ++counts.mirror;
     const QuadVec mirrored = ray.direction - 2 * quad_dot(ray.direction, hit->normal) * hit->normal;
     ray = {hit->point, mirrored, hit->surface, hit->normal};
   }
-  return radiance + weight * color(scene_.environment.background);
+  return radiance + weight * color(scene_.stage.environment.background);
 }
 
 QuadVec QuadTracer::radiance() const {
@@ -206,14 +207,14 @@ QuadVec QuadTracer::radiance() const {
 const Material& QuadTracer::material_of(const QuadHit& hit, Cell cell) const {
   const std::size_t spheres = scene_.spheres.size();
   const MaterialIndex index = hit.surface < spheres ? scene_.spheres[hit.surface].material
-                              : cell == Cell::odd   ? scene_.planes[hit.surface - spheres].checker->material
-                                                    : scene_.planes[hit.surface - spheres].material;
+                              : cell == Cell::odd   ? scene_.stage.planes[hit.surface - spheres].checker->material
+                                                    : scene_.stage.planes[hit.surface - spheres].material;
   return scene_.materials[static_cast<std::size_t>(index)];
 }
 
 Cell QuadTracer::cell_of(const QuadHit& hit) const {
   if (hit.surface < scene_.spheres.size()) return Cell::even;
-  const Plane& plane = scene_.planes[hit.surface - scene_.spheres.size()];
+  const Plane& plane = scene_.stage.planes[hit.surface - scene_.spheres.size()];
   if (!plane.checker) return Cell::even;
   const QuadVec n = quad_unit(plane.normal);
   const Quad ax = magnitude(plane.normal.x);

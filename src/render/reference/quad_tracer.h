@@ -8,7 +8,7 @@
 
 #include "render/ray_counts.h"
 #include "render/reference/quad.h"
-#include "render/scene_data.h"
+#include "render/scene_view.h"
 #include "render/signature.h"
 
 // The rendering model once more, in quad precision, by brute force, with the textbook's formulas: what the renderer is
@@ -25,7 +25,7 @@ struct QuadHit {
 class QuadTracer {
  public:
   /// The scene as a path from `eye` along `direction` meets it. It must outlive the tracer.
-  QuadTracer(const SceneData& scene, const Vec3& eye, const Vec3& direction);
+  QuadTracer(const SceneView& scene, const Vec3& eye, const Vec3& direction);
 
   std::optional<QuadHit> first_hit() const { return nearest(camera_ray_); }
 
@@ -54,7 +54,7 @@ class QuadTracer {
   const Material& material_of(const QuadHit& hit, Cell cell) const;
   Cell cell_of(const QuadHit& hit) const;
 
-  const SceneData& scene_;
+  SceneView scene_;
   QuadRay camera_ray_;
   std::vector<bool> inside_;  ///< per sphere
   std::vector<int> side_;     ///< per plane
