@@ -25,6 +25,14 @@ Communicator Communicator::of_node(const Communicator& whole) {
   return node;
 }
 
+Communicator Communicator::of_part(const Communicator& whole, int part) {
+  MPI_Comm handle = MPI_COMM_NULL;
+  check(MPI_Comm_split(whole.get(), part, 0, &handle), "MPI_Comm_split");
+  Communicator same(handle);
+  check(MPI_Comm_set_errhandler(handle, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  return same;
+}
+
 Communicator::Communicator(Communicator&& other) noexcept : handle_(std::exchange(other.handle_, MPI_COMM_NULL)) {}
 
 Communicator::~Communicator() {

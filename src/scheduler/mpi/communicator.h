@@ -15,6 +15,10 @@ class Communicator {
   /// The processes of `whole` that share this one's memory. Collective.
   static Communicator of_node(const Communicator& whole);
 
+  /// The processes of `whole` that are in the same part as this one, in the same order. Collective.
+  /// shapes:  0 <= part < 2^31
+  static Communicator of_part(const Communicator& whole, int part);
+
   Communicator(Communicator&& other) noexcept;
   Communicator& operator=(Communicator&&) = delete;
   ~Communicator();

@@ -8,6 +8,7 @@
 
 #include <new>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "scheduler/mpi/session.h"
@@ -38,6 +39,7 @@ struct FileId {
 
   bool operator==(const FileId&) const = default;
 };
+static_assert(std::is_trivially_copyable_v<FileId> && sizeof(FileId) == 16);
 
 /// Where the others find the first rank's file.
 struct Offer {
@@ -46,6 +48,7 @@ struct Offer {
   std::int64_t descriptor;  ///< -1: there is none
   FileId file;              ///< a process of that number may be another one in this rank's eyes
 };
+static_assert(std::is_trivially_copyable_v<Offer> && sizeof(Offer) == 40);
 
 /// A file in memory: it has no name to be cleaned up, and unlike /dev/shm no limit but the memory's.
 Descriptor make_file([[maybe_unused]] std::size_t bytes) noexcept {

@@ -12,6 +12,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "scheduler/backoff.h"
 #include "scheduler/mpi/check.h"
@@ -99,17 +100,22 @@ void broadcast_among(const Communicator& ranks, std::span<std::byte> bytes, std:
 
 }  // namespace
 
-Session::Session(int& argc, char**& argv) : exceptions_before_(std::uncaught_exceptions()) {
+Session::Session(int& argc, char**& argv, std::uint32_t most_on_node) : exceptions_before_(std::uncaught_exceptions()) {
   initialize(argc, argv);
   communicator_ = std::make_unique<Communicator>(Communicator::of_job());
   rank_ = static_cast<Rank>(communicator_->rank());
   size_ = static_cast<std::uint32_t>(communicator_->size());
-  node_ = std::make_unique<Communicator>(Communicator::of_node(*communicator_));
+  const Communicator machine = Communicator::of_node(*communicator_);
+  node_cores_ = cores_of(machine);
+  oversubscribed_ = static_cast<std::uint32_t>(machine.size()) > count(node_cores_);
+
+  const auto part = static_cast<std::uint32_t>(machine.rank()) / most_on_node;
+  node_ = std::make_unique<Communicator>(Communicator::of_part(machine, static_cast<int>(part)));
   ranks_on_node_ = static_cast<std::uint32_t>(node_->size());
   first_on_node_ = node_->rank() == 0;
+  auto alike = Communicator::of_part(*communicator_, first_on_node_ ? 0 : 1);
+  if (first_on_node_) first_ranks_ = std::make_unique<Communicator>(std::move(alike));
   nodes_ = count_nodes(*communicator_, first_on_node_);
-  node_cores_ = cores_of(*node_);
-  oversubscribed_ = ranks_on_node_ > count(node_cores_);
 }
 
 Session::~Session() {
@@ -118,6 +124,7 @@ Session::~Session() {
     std::fflush(nullptr);
     std::_Exit(0);
   }
+  first_ranks_.reset();
   node_.reset();
   communicator_.reset();
   MPI_Finalize();
@@ -146,6 +153,10 @@ void Session::broadcast(Bytes& bytes, std::size_t piece_bytes) {
 
 void Session::broadcast(std::span<std::byte> bytes, std::size_t piece_bytes) {
   broadcast_among(*communicator_, bytes, piece_bytes, patience());
+}
+
+void Session::broadcast_to_nodes(std::span<std::byte> bytes, std::size_t piece_bytes) {
+  if (first_ranks_) broadcast_among(*first_ranks_, bytes, piece_bytes, patience());
 }
 
 void Session::broadcast_on_node(std::span<std::byte> bytes, std::size_t piece_bytes) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,8 +31,10 @@ class Session {
  public:
   static constexpr std::size_t kPieceBytes = std::size_t{1} << 28;
 
+  /// More ranks that share memory than `most_on_node` count as several nodes: so tests have some on one machine.
+  /// shapes:  most_on_node >= 1
   /// throws:  std::runtime_error where MPI cannot give what is needed
-  Session(int& argc, char**& argv);
+  explicit Session(int& argc, char**& argv, std::uint32_t most_on_node = std::numeric_limits<std::uint32_t>::max());
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
   ~Session();
@@ -62,6 +65,9 @@ class Session {
   /// The same where the others know how many bytes there are.
   void broadcast(std::span<std::byte> bytes, std::size_t piece_bytes = kPieceBytes);
 
+  /// The same from rank 0 to the first rank of each node; the others have no part in it.
+  void broadcast_to_nodes(std::span<std::byte> bytes, std::size_t piece_bytes = kPieceBytes);
+
   /// The same among the ranks of a node, from the first of them.
   void broadcast_on_node(std::span<std::byte> bytes, std::size_t piece_bytes = kPieceBytes);
 
@@ -86,6 +92,7 @@ class Session {
   bool finalizes_ = true;
   std::unique_ptr<Communicator> communicator_;
   std::unique_ptr<Communicator> node_;
+  std::unique_ptr<Communicator> first_ranks_;  ///< of all nodes; null where this is none of them
   Rank rank_ = 0;
   std::uint32_t size_ = 1;
   std::uint32_t nodes_ = 1;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scheduler/mpi/session.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <chrono>
+#include <span>
 #include <stdexcept>
 #include <thread>
 
@@ -37,8 +39,30 @@ BOOST_AUTO_TEST_CASE(the_launcher_and_mpi_agree) {
   BOOST_TEST(session.rank() < session.size());
 }
 
-BOOST_AUTO_TEST_CASE(all_ranks_of_a_test_are_on_one_node) {
-  BOOST_TEST(session_for_tests().nodes() == 1U);
+BOOST_AUTO_TEST_CASE(all_ranks_of_a_test_are_on_one_node_or_in_parts_of_the_size_asked_for) {
+  const Session& session = session_for_tests();
+  const std::uint32_t most = std::min(most_ranks_on_node_in_tests(), session.size());
+  BOOST_TEST(session.nodes() == (session.size() + most - 1) / most);
+  BOOST_TEST(session.is_first_on_node() == (session.rank() % most == 0));
+  const std::uint32_t first = session.rank() / most * most;
+  BOOST_TEST(session.ranks_on_node() == std::min(most, session.size() - first));
+}
+
+BOOST_AUTO_TEST_CASE(a_broadcast_to_nodes_reaches_their_first_ranks_alone) {
+  Session& session = session_for_tests();
+  for (const std::size_t size : {0U, 1U, 12'345U}) {
+    Bytes bytes = session.rank() == kMasterRank ? pattern(size) : Bytes(size, std::byte{255});
+    session.broadcast_to_nodes(bytes, 1000);
+    BOOST_TEST((bytes == (session.is_first_on_node() ? pattern(size) : Bytes(size, std::byte{255}))));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_broadcast_on_a_node_stays_there) {
+  Session& session = session_for_tests();
+  const std::uint32_t most = std::min(most_ranks_on_node_in_tests(), session.size());
+  std::uint32_t first = session.is_first_on_node() ? session.rank() : 99;
+  session.broadcast_on_node(std::as_writable_bytes(std::span(&first, 1)));
+  BOOST_TEST(first == session.rank() / most * most);
 }
 
 BOOST_AUTO_TEST_CASE(more_ranks_than_cores_are_noticed) {
