@@ -7,11 +7,11 @@
 #include <span>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "app/failure.h"
 #include "app/progress.h"
 #include "app/render_lead.h"
+#include "app/shared_arrays.h"
 #include "app/shared_tree.h"
 #include "scheduler/launcher.h"
 #include "scheduler/mpi/farewell.h"
@@ -48,19 +48,12 @@ scheduler::RunRecord render_and_finish(RenderLead& lead, const RenderOptions& op
   return record;
 }
 
-/// A job's scene, made whole.
-render::SceneData with_spheres(render::SceneData scene, std::vector<render::Sphere> spheres) {
-  scene.spheres = std::move(spheres);
-  return scene;
-}
-
 ExitCode render_alone(const RenderOptions& options, const std::string& command_line) {
   const Stopwatch total;
   const Team team;
   RenderLead lead(options, command_line, team);
   const Stopwatch build;
-  std::vector<render::Sphere> spheres = lead.take_spheres();
-  const render::Scene scene(with_spheres(lead.job().scene, std::move(spheres)), lead.job().kernel);
+  const render::Scene scene(lead.take_scene(), lead.job().kernel);
   lead.times().build = build.seconds();
   render_and_finish(lead, options, team, scene, total, [](const auto& plan, const auto& work, const auto& accept) {
     return scheduler::run_in_process(1, 0, plan, work, accept);
@@ -68,24 +61,21 @@ ExitCode render_alone(const RenderOptions& options, const std::string& command_l
   return ExitCode::success;
 }
 
-/// What rank 0 tells the others at the start: how reading went, and how many spheres follow the job if it went well.
+/// What rank 0 tells the others at the start: how reading went. If it went well, the job follows, then the arrays.
 struct Opening {
   std::int64_t code;  ///< an ExitCode
-  std::uint64_t spheres;
 };
-static_assert(std::has_unique_object_representations_v<Opening> && std::is_trivially_copyable_v<render::Sphere>);
+static_assert(std::has_unique_object_representations_v<Opening> && sizeof(Opening) == 8);
 
 std::span<std::byte> bytes_of(Opening& opening) noexcept {
   return std::as_writable_bytes(std::span(&opening, 1));
 }
 
-/// A scene whose tree the ranks of each node have built together.
-render::Scene shared_scene(Session& session, render::SceneData scene, render::Kernel kernel) {
-  if (render::runnable(kernel) == render::Kernel::brute) return {std::move(scene), kernel};
-  render::Bvh tree = build_on_node(session, scene.spheres);
-  auto spheres = std::move(scene.spheres);
-  auto materials = std::move(scene.materials);
-  return {std::move(spheres), std::move(materials), std::move(scene), kernel, std::move(tree)};
+/// A job's scene with a tree that the ranks of each node have built together.
+render::Scene shared_scene(Session& session, const RenderJob& job, const SceneArrays& arrays) {
+  const bool needs_tree = render::runnable(job.kernel) != render::Kernel::brute;
+  render::Bvh tree = needs_tree ? build_on_node(session, arrays.spheres) : render::Bvh();
+  return {arrays.spheres, arrays.materials, job.scene, job.kernel, std::move(tree)};
 }
 
 ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::string& command_line) {
@@ -99,19 +89,17 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
     code = report_failure();
   }
   const Stopwatch broadcast;
-  std::vector<render::Sphere> spheres;
-  if (lead) spheres = lead->take_spheres();
-  Opening opening{static_cast<int>(code), spheres.size()};
+  Opening opening{static_cast<int>(code)};
   session.broadcast(bytes_of(opening));
   if (!lead) return code;
+  render::SceneData whole = lead->take_scene();
   scheduler::Bytes job = encode_job(lead->job());
   session.broadcast(job);
-  session.broadcast(std::as_writable_bytes(std::span(spheres)));
+  const SceneArrays arrays = share_arrays(session, std::move(whole.spheres), std::move(whole.materials));
   lead->times().broadcast = broadcast.seconds();
 
   const Stopwatch build;
-  const render::Scene scene =
-      shared_scene(session, with_spheres(lead->job().scene, std::move(spheres)), lead->job().kernel);
+  const render::Scene scene = shared_scene(session, lead->job(), arrays);
   MpiTransport transport(session);
   session.barrier();
   lead->times().build = build.seconds();
@@ -131,10 +119,9 @@ ExitCode follow(Session& session) {
   scheduler::Bytes bytes;
   session.broadcast(bytes);
   const RenderJob job = decode_job(bytes);
-  std::vector<render::Sphere> spheres(opening.spheres);
-  session.broadcast(std::as_writable_bytes(std::span(spheres)));
+  const SceneArrays arrays = share_arrays(session, {}, {});
 
-  const render::Scene scene = shared_scene(session, with_spheres(job.scene, std::move(spheres)), job.kernel);
+  const render::Scene scene = shared_scene(session, job, arrays);
   const auto tiles = tiles_of(job, session.size());
   const TileWork work(scene, job, tiles);
   MpiTransport transport(session);

@@ -68,6 +68,10 @@ RenderLead::RenderLead(const RenderOptions& options, std::string command_line, c
   open_outputs();
 }
 
+render::SceneData RenderLead::take_scene() {
+  return {job_.scene, std::exchange(job_.scene.spheres, {}), std::exchange(job_.scene.materials, {})};
+}
+
 void RenderLead::read_scene() {
   io::ReadScene read = io::read_scene(options_.input);
   job_.scene = std::move(read.scene);

@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/options.h"
@@ -28,8 +27,9 @@ class RenderLead {
 
   const RenderJob& job() const noexcept { return job_; }
 
-  /// Gives away the scene's spheres, which may be too many to have twice; the job is one without them from then on.
-  std::vector<render::Sphere> take_spheres() noexcept { return std::exchange(job_.scene.spheres, {}); }
+  /// The scene to render. Its spheres and materials, which may be too many to have twice, are given away: the job is
+  /// one without them from then on.
+  render::SceneData take_scene();
 
   /// Phases that are timed elsewhere go in here.
   io::Stats::Times& times() noexcept { return stats_.time_s; }

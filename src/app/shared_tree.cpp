@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "render/bvh_build.h"
-#include "scheduler/mpi/node_memory.h"
 
 namespace tessera::app {
 namespace {
@@ -27,13 +26,14 @@ struct Layout {
     return {reinterpret_cast<render::TreeLeaf*>(memory.data() + nodes * sizeof(render::TreeNode)), leaves};
   }
 };
-static_assert(std::is_trivially_copyable_v<Layout> && std::is_trivially_copyable_v<render::TreeNode> &&
-              std::is_trivially_copyable_v<render::TreeLeaf>);
+static_assert(std::is_trivially_copyable_v<Layout> && sizeof(Layout) == 80);
+static_assert(std::is_trivially_copyable_v<render::TreeNode> && std::is_trivially_copyable_v<render::TreeLeaf>);
 static_assert(sizeof(render::TreeNode) % alignof(render::TreeLeaf) == 0);
 
 }  // namespace
 
-render::Bvh build_on_node(scheduler::mpi::Session& session, std::span<const render::Sphere> spheres) {
+render::Bvh build_on_node(scheduler::mpi::Session& session, std::span<const render::Sphere> spheres,
+                          scheduler::mpi::Sharing sharing) {
   if (session.ranks_on_node() == 1) return render::build_bvh(spheres);
 
   std::optional<render::BvhBuild> build;
@@ -45,7 +45,7 @@ render::Bvh build_on_node(scheduler::mpi::Session& session, std::span<const rend
   }
   session.broadcast_on_node(std::as_writable_bytes(std::span(&layout, 1)));
 
-  const auto memory = std::make_shared<scheduler::mpi::NodeMemory>(session, layout.bytes());
+  const auto memory = std::make_shared<scheduler::mpi::NodeMemory>(session, layout.bytes(), sharing);
   const auto nodes = layout.nodes_in(memory->bytes());
   const auto leaves = layout.leaves_in(memory->bytes());
   if (build) {

@@ -195,6 +195,7 @@ void check_materials(const render::SceneData& scene) {
     if (static_cast<std::size_t>(material) >= scene.materials.size()) refuse_bytes("a material is missing");
   };
   for (const render::Sphere& sphere : scene.spheres) check(sphere.material);
+  if (scene.spheres.empty() && scene.materials.empty()) return;  // they travel apart
   for (const render::Plane& plane : scene.planes) {
     check(plane.material);
     if (plane.checker) check(plane.checker->material);

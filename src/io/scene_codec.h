@@ -12,7 +12,8 @@ namespace tessera::io {
 
 std::vector<std::byte> encode_scene(const render::SceneData& scene);
 
-/// The inverse. Believes nothing: lengths, enumerators and material indices are checked before they are used.
+/// The inverse. Believes nothing: lengths, enumerators and material indices are checked before they are used; of a
+/// scene without spheres and materials, which travel apart, whoever puts all together checks the planes' materials.
 /// throws:  Error(bad_scene) for anything that encode_scene() cannot have written, but for numbers out of range
 render::SceneData decode_scene(std::span<const std::byte> bytes);
 

@@ -2,6 +2,8 @@
 #include "render/scene.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "render/bvh_build.h"
@@ -9,6 +11,15 @@
 #include "render/sphere.h"
 
 namespace tessera::render {
+namespace {
+
+void require_one_of(std::span<const Material> materials, MaterialIndex index) {
+  if (static_cast<std::size_t>(index) < materials.size()) return;
+  throw std::invalid_argument("a plane's material is number " + std::to_string(static_cast<std::size_t>(index)) +
+                              " of " + std::to_string(materials.size()));
+}
+
+}  // namespace
 
 Scene::Scene(SceneData data, Kernel kernel)
     : spheres_(std::move(data.spheres)),
@@ -35,6 +46,8 @@ void Scene::prepare() {
     reach_ = bounds.reach_from(middle_);
   }
   for (const Plane& plane : data_.planes) {
+    require_one_of(view().materials, plane.material);
+    if (plane.checker) require_one_of(view().materials, plane.checker->material);
     plane_normals_.push_back(normalized(plane.normal));
     plane_looks_.push_back({sum_of_sizes(plane.normal), sum_of_sizes(plane.point)});
   }

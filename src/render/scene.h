@@ -32,7 +32,7 @@ struct Placement {
 
 class Scene {
  public:
-  /// throws:  std::invalid_argument for a kernel that this machine cannot run
+  /// throws:  std::invalid_argument for a kernel that this machine cannot run, a plane without its material
   Scene(SceneData data, Kernel kernel);
 
   /// Of parts that others may look at as well; `tree` is over the spheres, or empty where the kernel needs none.

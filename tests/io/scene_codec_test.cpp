@@ -176,6 +176,14 @@ BOOST_AUTO_TEST_CASE(a_material_that_is_not_there_is_refused) {
   BOOST_TEST(!decodes(encode_scene(scene)));
 }
 
+BOOST_AUTO_TEST_CASE(spheres_and_materials_may_travel_apart_but_only_together) {
+  SceneData scene = full_scene();
+  scene.materials.clear();
+  BOOST_TEST(!decodes(encode_scene(scene)));
+  scene.spheres.clear();
+  BOOST_TEST(decodes(encode_scene(scene)));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace tessera::io
