@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/memory_use.h"
 #include "io/scene_reader.h"
 #include "render/camera.h"
 #include "render/scene.h"
+#include "render/wavefront.h"
 
 namespace tessera::app {
 namespace {
@@ -25,6 +27,16 @@ std::string unused_parts(const render::SceneData& scene) {
   if (scene.lights.empty()) add("shadow rays");
   if (scene.spheres.empty()) add("sphere tests");
   return parts.empty() ? "nothing" : parts;
+}
+
+/// What one copy takes, which the ranks of a node share, and what each of them needs besides.
+void print_memory(const render::Scene& scene) {
+  const auto bytes = static_cast<double>(memory_bytes(scene));
+  std::printf("memory       %.1f MiB a node", bytes / (1 << 20));
+  if (scene.sphere_count() > 0) std::printf(", %.0f bytes a sphere", bytes / static_cast<double>(scene.sphere_count()));
+  const std::size_t cell_bytes = render::Wavefront::most_cell_bytes(scene);
+  if (cell_bytes > 0) std::printf("; up to %zu MiB a rank for shadows", cell_bytes >> 20);
+  std::printf("\n");
 }
 
 }  // namespace
@@ -48,11 +60,8 @@ ExitCode run_info(const InfoOptions& options) {
     std::printf("radii        %.6g to %.6g\n", least->radius, most->radius);
   }
   const std::string unused = unused_parts(data);
-  const render::Scene scene(std::move(data), render::Kernel::automatic);
-  const std::size_t bytes = scene.bvh().memory_bytes() + spheres * sizeof(render::Sphere);
-  std::printf("memory       %.1f MiB a rank", static_cast<double>(bytes) / (1 << 20));
-  if (spheres > 0) std::printf(", %.0f bytes a sphere", static_cast<double>(bytes) / static_cast<double>(spheres));
-  std::printf("\nskipped      %s\n", unused.c_str());
+  print_memory(render::Scene(std::move(data), render::Kernel::automatic));
+  std::printf("skipped      %s\n", unused.c_str());
   return ExitCode::success;
 }
 

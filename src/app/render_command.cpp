@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/failure.h"
+#include "app/memory_use.h"
 #include "app/progress.h"
 #include "app/render_lead.h"
 #include "app/shared_arrays.h"
@@ -30,7 +31,8 @@ using scheduler::mpi::Session;
 /// Rank 0's way through a render, whatever the others are: `run` carries out a plan.
 template <class Run>
 scheduler::RunRecord render_and_finish(RenderLead& lead, const RenderOptions& options, const Team& team,
-                                       const render::Scene& scene, const Stopwatch& total, Run&& run) {
+                                       const render::Scene& scene, const Copies& copies, const Stopwatch& total,
+                                       Run&& run) {
   const RenderJob& job = lead.job();
   const auto tiles = tiles_of(job, team.ranks);
   const scheduler::Plan plan = plan_of(job, tiles);
@@ -44,6 +46,7 @@ scheduler::RunRecord render_and_finish(RenderLead& lead, const RenderOptions& op
   };
   const scheduler::RunRecord record = run(plan, work, accept);
   progress.finish();
+  lead.memory() = memory_of(scene, copies);
   lead.finish(mosaic, tiles, record, total);
   return record;
 }
@@ -55,7 +58,7 @@ ExitCode render_alone(const RenderOptions& options, const std::string& command_l
   const Stopwatch build;
   const render::Scene scene(lead.take_scene(), lead.job().kernel);
   lead.times().build = build.seconds();
-  render_and_finish(lead, options, team, scene, total, [](const auto& plan, const auto& work, const auto& accept) {
+  render_and_finish(lead, options, team, scene, {}, total, [](const auto& plan, const auto& work, const auto& accept) {
     return scheduler::run_in_process(1, 0, plan, work, accept);
   });
   return ExitCode::success;
@@ -103,7 +106,7 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
   MpiTransport transport(session);
   session.barrier();
   lead->times().build = build.seconds();
-  const scheduler::RunRecord record = render_and_finish(*lead, options, team, scene, total,
+  const scheduler::RunRecord record = render_and_finish(*lead, options, team, scene, arrays.copies, total,
                                                         [&](const auto& plan, const auto& work, const auto& accept) {
                                                           return scheduler::run_master(transport, plan, work, accept);
                                                         });

@@ -33,6 +33,8 @@ class RenderLead {
 
   /// Phases that are timed elsewhere go in here.
   io::Stats::Times& times() noexcept { return stats_.time_s; }
+  /// The same of memory.
+  io::Stats::Memory& memory() noexcept { return stats_.memory; }
 
   /// Packs what is complete of the picture, so that little is left to do at the end. With one rank that is no gain, and
   /// it would count as rendering.

@@ -63,6 +63,10 @@ void print_faults(const io::Stats& stats) {
   }
 }
 
+double mebibytes(std::uint64_t bytes) {
+  return static_cast<double>(bytes) / (1 << 20);
+}
+
 /// A person who renders on one core of several may not know that there is more to have.
 void print_unused_cores(const io::Stats& stats, const RenderOptions& options) {
   const unsigned cores = std::thread::hardware_concurrency();
@@ -137,6 +141,9 @@ void print_report(const io::Stats& stats, const RenderOptions& options) {
     std::fprintf(stderr, "error: at most %.2g of a linear channel, %" PRIu64 " pixel%s uncertified\n",
                  stats.error->largest, stats.error->uncertified, stats.error->uncertified == 1 ? "" : "s");
   }
+  const auto& memory = stats.memory;
+  std::fprintf(stderr, "memory: %.0f bytes a sphere, %.1f MiB a node, besides %.1f MiB on rank 0\n",
+               memory.bytes_per_sphere, mebibytes(memory.node_bytes), mebibytes(memory.rank_bytes));
   const auto& t = stats.time_s;
   std::fprintf(stderr, "time: read %s, broadcast %s, build %s, render %s, write %s, total %s\n",
                duration(t.read).c_str(), duration(t.broadcast).c_str(), duration(t.build).c_str(),

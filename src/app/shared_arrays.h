@@ -14,7 +14,7 @@ namespace tessera::app {
 /// How often a node holds what is meant to be there once.
 struct Copies {
   std::uint32_t on_node = 1;
-  bool is_shared = false;  ///< whether other ranks look at this rank's copy
+  bool is_shared = false;  ///< whether this rank's is in memory that ranks can share, not in its own
 };
 
 /// What there may be millions of in a scene.

@@ -52,6 +52,12 @@ toml::table to_table(const Stats::Schedule& schedule) {
                      {"prefetch", schedule.prefetch},       {"master", schedule.master}};
 }
 
+toml::table to_table(const Stats::Memory& memory) {
+  return toml::table{{"bytes_per_sphere", memory.bytes_per_sphere},
+                     {"node_bytes", count(memory.node_bytes)},
+                     {"rank_bytes", count(memory.rank_bytes)}};
+}
+
 toml::table to_table(const Stats::Times& time) {
   return toml::table{{"read", time.read},     {"broadcast", time.broadcast}, {"build", time.build},
                      {"render", time.render}, {"write", time.write},         {"total", time.total}};
@@ -108,6 +114,7 @@ std::string to_json(const Stats& stats) {
                   {"image", to_table(stats.image)},
                   {"mpi", to_table(stats.mpi)},
                   {"schedule", to_table(stats.schedule)},
+                  {"memory", to_table(stats.memory)},
                   {"time_s", to_table(stats.time_s)},
                   {"rays", to_table(stats.rays)},
                   {"skipped", std::move(skipped)},

@@ -40,6 +40,11 @@ struct Stats {
     std::uint32_t prefetch = 0;  ///< tiles that a worker holds, 0: as the policy finds right
     std::string master;
   };
+  struct Memory {
+    double bytes_per_sphere = 0;   ///< of spheres, materials and tree; 0 without spheres
+    std::uint64_t node_bytes = 0;  ///< the same in bytes, all copies on rank 0's node
+    std::uint64_t rank_bytes = 0;  ///< what rank 0 has in memory for itself besides, its program's code apart
+  };
   struct Times {
     double read = 0;
     double broadcast = 0;
@@ -96,6 +101,7 @@ struct Stats {
   Image image;
   Mpi mpi;
   Schedule schedule;
+  Memory memory;
   Times time_s;
   Rays rays;
   std::map<std::string, std::uint64_t> skipped;  ///< work-skipping technique: how often it saved work

@@ -24,8 +24,13 @@ constexpr std::size_t kCellBytes = std::size_t{64} << 20;
 
 Wavefront::Wavefront(const Scene& scene, const TraceOptions& options) : scene_(scene), options_(options) {
   const std::size_t lights = scene.data().lights.size();
+  const std::size_t bytes = most_cell_bytes(scene);
   light_cells_.reserve(lights);
-  for (std::size_t light = 0; light != lights; ++light) light_cells_.emplace_back(scene, light, kCellBytes / lights);
+  for (std::size_t light = 0; light != lights; ++light) light_cells_.emplace_back(scene, light, bytes / lights);
+}
+
+std::size_t Wavefront::most_cell_bytes(const Scene& scene) noexcept {
+  return scene.kernel() == Kernel::avx2 && !scene.data().lights.empty() && scene.sphere_count() > 0 ? kCellBytes : 0;
 }
 
 void Wavefront::trace(std::span<const RayInRegion> camera_rays, std::span<Rgb> radiances, RayCounts& counts,

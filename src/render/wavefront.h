@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -19,6 +20,9 @@ class Wavefront {
  public:
   /// requires: scene outlives the wavefront
   Wavefront(const Scene& scene, const TraceOptions& options);
+
+  /// About what the cells of all lights together take at most.
+  static std::size_t most_cell_bytes(const Scene& scene) noexcept;
 
   /// radiance_along of every camera ray. Calls `between_slices` after each step that took rays.
   /// shapes:  radiances.size() = camera_rays.size(); some hundreds at a time are enough. first_spheres: what is known

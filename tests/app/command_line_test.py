@@ -112,6 +112,7 @@ class CommandLineTest(running_program.ProgramTest):
             "time_s": "read broadcast build render write total", "rays": "primary shadow mirror",
             "balance": "imbalance load_balance efficiency tail_s graham_bound_s makespan_s",
             "messages": "count bytes", "faults": "silences reissued damaged late returned wasted_s lost",
+            "memory": "bytes_per_sphere node_bytes rank_bytes",
         }
         for key, inner in keys.items():
             self.assertEqual(set(stats[key]), set(inner.split()), key)
@@ -122,6 +123,9 @@ class CommandLineTest(running_program.ProgramTest):
         self.assertEqual(sum(rank["rays"] for rank in stats["ranks"]), sum(stats["rays"].values()))
         self.assertEqual(stats["mpi"]["size"], 2)
         self.assertEqual(stats["rays"]["primary"], 1200)
+        self.assertGreater(stats["memory"]["bytes_per_sphere"], 40)
+        self.assertGreaterEqual(stats["memory"]["node_bytes"], stats["memory"]["bytes_per_sphere"])
+        self.assertGreater(stats["memory"]["rank_bytes"], 0)
 
         with open(self.folder / "tiles.csv", newline="") as file:
             rows = list(csv.DictReader(file))
@@ -133,6 +137,7 @@ class CommandLineTest(running_program.ProgramTest):
     def test_the_report_goes_to_stderr_and_quiet_silences_it(self):
         loud = self.run_tessera("render", self.scene, ranks=2)
         self.assertIn("load balance: efficiency", loud.stderr)
+        self.assertRegex(loud.stderr, r"memory: \d+ bytes a sphere, \d+\.\d MiB a node, besides \d+\.\d MiB on rank 0\n")
         self.assertEqual(loud.stdout, "")
         alone = self.run_tessera("render", self.scene)
         self.assertIn("load balance: efficiency", alone.stderr)
@@ -204,6 +209,7 @@ class CommandLineTest(running_program.ProgramTest):
         run = self.run_tessera("info", self.scene)
         self.assertEqual(run.returncode, 0)
         self.assertRegex(run.stdout, r"spheres +1\nplanes +1\nlights +1\n")
+        self.assertRegex(run.stdout, r"memory +\d+\.\d MiB a node, \d+ bytes a sphere")
 
     def convert(self, *words):
         run = self.run_tessera("convert", *words)

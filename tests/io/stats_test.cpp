@@ -43,6 +43,7 @@ BOOST_AUTO_TEST_CASE(json_has_every_key_that_scripts_rely_on) {
   stats.image = {5, 6, 7, 8};
   stats.mpi = {9, 10, "OpenMPI"};
   stats.schedule = {"dynamic", 11, 12, 13, 14, "auto"};
+  stats.memory = {70.5, 25, 26};
   stats.time_s = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5};
   stats.rays = {15, 16, 17};
   stats.skipped = {{"shadow", 18}};
@@ -55,7 +56,8 @@ BOOST_AUTO_TEST_CASE(json_has_every_key_that_scripts_rely_on) {
       R"({"balance":{"efficiency":10.5,"graham_bound_s":12.5,"imbalance":8.5,"load_balance":9.5,)"
       R"("makespan_s":13.5,"tail_s":11.5},"command":"render",)"
       R"("faults":{"damaged":27,"late":28,"lost":[30,31],"reissued":26,"returned":29,"silences":25,"wasted_s":14.5},)"
-      R"("image":{"height":6,"max_bounces":8,"samples":7,"width":5},"messages":{"bytes":24,"count":23},)"
+      R"("image":{"height":6,"max_bounces":8,"samples":7,"width":5},"memory":{"bytes_per_sphere":70.5,"node_bytes":25,"rank_bytes":26},)"
+      R"("messages":{"bytes":24,"count":23},)"
       R"("mpi":{"library":"OpenMPI","nodes":10,"size":9},)"
       R"("ranks":[{"busy_s":6.5,"host":"node","pixels":21,"rank":19,"rays":22,"tiles":20,"wait_s":7.5}],)"
       R"("rays":{"mirror":17,"primary":15,"shadow":16},)"
