@@ -13,6 +13,7 @@ packages=(
   libpng-dev                            # pictures
   libcli11-dev                          # the command line
   libtomlplusplus-dev                   # scene files
+  liblz4-dev                            # tiles packed for the way between nodes
   libgmp-dev                            # integers of any size, for exact decisions
   libxxhash-dev                         # checksums of what travels
 )

@@ -126,7 +126,7 @@ ExitCode follow(Session& session) {
 
   const render::Scene scene = shared_scene(session, job, arrays);
   const auto tiles = tiles_of(job, session.size());
-  const TileWork work(scene, job, tiles);
+  const TileWork work(scene, job, tiles, session.nodes() > 1 ? Packing::where_shorter : Packing::never);
   MpiTransport transport(session);
   session.barrier();
   scheduler::run_worker(transport, plan_of(job, tiles), work);

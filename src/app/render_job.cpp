@@ -31,20 +31,6 @@ struct JobHeader {
 };
 static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 48);
 
-/// In front of a tile's pixels; its primary rays are known to everybody.
-struct TileHeader {
-  std::uint64_t shadow_rays;
-  std::uint64_t mirror_rays;
-};
-static_assert(std::is_trivially_copyable_v<TileHeader> && sizeof(TileHeader) == 16);
-
-/// Bytes that a tile delivers.
-std::size_t delivery_size(std::size_t pixels, render::PixelFormat format, Layers layers) {
-  const std::size_t signature_size = layers.signatures ? sizeof(render::Signature) : 0;
-  const std::size_t error_size = layers.errors ? sizeof(float) : 0;
-  return sizeof(TileHeader) + pixels * (bytes_per_pixel(format) + signature_size + error_size);
-}
-
 }  // namespace
 
 scheduler::Bytes encode_job(const RenderJob& job) {
@@ -96,23 +82,22 @@ scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tile
           job.lease_s};
 }
 
-TileWork::TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles)
-    : renderer_(scene, job.format, job.tracer), format_(job.format), layers_(job.layers), tiles_(tiles) {}
+TileWork::TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles,
+                   Packing packing)
+    : renderer_(scene, job.format, job.tracer),
+      codec_(job.format, job.layers, packing),
+      format_(job.format),
+      layers_(job.layers),
+      tiles_(tiles) {}
 
 scheduler::Bytes TileWork::operator()(scheduler::TaskId task, const std::function<void()>& between_slices) const {
   const render::Rect& tile = tiles_[index_of(task)];
-  scheduler::Bytes delivered(delivery_size(tile.pixels(), format_, layers_));
-  const auto colors = std::span(delivered).subspan(sizeof(TileHeader), tile.pixels() * bytes_per_pixel(format_));
+  std::vector<std::byte> colors(tile.pixels() * bytes_per_pixel(format_));
   std::vector<render::Signature> signatures(layers_.signatures ? tile.pixels() : 0);
   std::vector<float> errors(layers_.errors ? tile.pixels() : 0);
-  const auto counts = renderer_.render(tile, {colors, signatures, errors}, between_slices);
-  const TileHeader header{counts.shadow, counts.mirror};
-  std::memcpy(delivered.data(), &header, sizeof header);
-  std::byte* layer = colors.data() + colors.size();
-  for (const auto bytes : {std::as_bytes(std::span(signatures)), std::as_bytes(std::span(errors))}) {
-    layer = std::copy(bytes.begin(), bytes.end(), layer);
-  }
-  return delivered;
+  const render::TilePixels pixels{colors, signatures, errors};
+  const auto rays = renderer_.render(tile, pixels, between_slices);
+  return codec_.encode(rays, pixels);
 }
 
 Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
@@ -120,7 +105,7 @@ Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
       signatures_{job.area.width, job.area.height,
                   std::vector<render::Signature>(job.layers.signatures ? job.area.pixels() : 0)},
       errors_(job.layers.errors ? job.area.pixels() : 0),
-      layers_(job.layers),
+      codec_(job.format, job.layers),
       area_(job.area),
       samples_(job.scene.image.samples),
       tiles_(tiles),
@@ -129,34 +114,44 @@ Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
 
 void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered) {
   const render::Rect& tile = tiles_[index_of(task)];
-  if (delivered.size() != delivery_size(tile.pixels(), image_.format, layers_)) {
-    throw std::runtime_error("tile " + std::to_string(index_of(task)) + " arrived with " +
-                             std::to_string(delivered.size()) + " bytes (its size asks for another number)");
+  DeliveredTile arrived;
+  try {
+    arrived = codec_.decode(delivered, tile.pixels());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error("tile " + std::to_string(index_of(task)) + " arrived damaged (" + error.what() + ")");
   }
-  TileHeader header;
-  std::memcpy(&header, delivered.data(), sizeof header);
-  rays_[index_of(task)] = {tile.pixels() * samples_, header.shadow_rays, header.mirror_rays};
-
-  const std::byte* layer = delivered.data() + sizeof header;
-  layer = place(tile, bytes_per_pixel(image_.format), layer, image_.bytes.data());
-  if (layers_.signatures) {
-    const auto to = std::as_writable_bytes(std::span(signatures_.pixels));
-    layer = place(tile, sizeof(render::Signature), layer, to.data());
+  rays_[index_of(task)] = {tile.pixels() * samples_, arrived.shadow_rays, arrived.mirror_rays};
+  if (arrived.has_one_color) {
+    fill(tile, arrived.colors);
+  } else {
+    place(tile, arrived.colors, image_.bytes);
   }
-  if (layers_.errors) place(tile, sizeof(float), layer, std::as_writable_bytes(std::span(errors_)).data());
+  place(tile, arrived.signatures, std::as_writable_bytes(std::span(signatures_.pixels)));
+  place(tile, arrived.errors, std::as_writable_bytes(std::span(errors_)));
 
   for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y) missing_[y] -= tile.width;
   while (complete_rows_ != area_.height && missing_[complete_rows_] == 0) ++complete_rows_;
 }
 
-const std::byte* Mosaic::place(const render::Rect& tile, std::size_t pixel_size, const std::byte* from,
-                               std::byte* to) const {
+void Mosaic::place(const render::Rect& tile, std::span<const std::byte> layer, std::span<std::byte> to) const {
+  if (layer.empty()) return;
+  const std::size_t pixel_size = layer.size() / tile.pixels();
   const std::size_t row_bytes = tile.width * pixel_size;
-  for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y, from += row_bytes) {
-    const std::size_t pixel = std::size_t{y} * area_.width + (tile.x - area_.x);
-    std::memcpy(to + pixel * pixel_size, from, row_bytes);
+  for (std::uint32_t row = 0; row != tile.height; ++row) {
+    std::memcpy(to.data() + row_start(tile, row) * pixel_size, layer.data() + row * row_bytes, row_bytes);
   }
-  return from;
+}
+
+void Mosaic::fill(const render::Rect& tile, std::span<const std::byte> color) {
+  const std::size_t row_bytes = tile.width * color.size();
+  std::byte* const first_row = image_.bytes.data() + row_start(tile, 0) * color.size();
+  std::memcpy(first_row, color.data(), color.size());
+  for (std::size_t done = color.size(); done < row_bytes; done *= 2) {
+    std::memcpy(first_row + done, first_row, std::min(done, row_bytes - done));
+  }
+  for (std::uint32_t row = 1; row != tile.height; ++row) {
+    std::memcpy(image_.bytes.data() + row_start(tile, row) * color.size(), first_row, row_bytes);
+  }
 }
 
 }  // namespace tessera::app

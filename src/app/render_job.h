@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "app/tile_codec.h"
 #include "render/scene.h"
 #include "render/signature_image.h"
 #include "render/tile_renderer.h"
@@ -16,12 +17,6 @@
 
 // Where the renderer and the scheduler meet: tiles become tasks, and what a task delivers becomes part of a picture.
 namespace tessera::app {
-
-/// What the tiles bring home besides colours.
-struct Layers {
-  bool signatures = false;
-  bool errors = false;
-};
 
 /// All that a rank must know to render; rank 0 reads it and sends it to the others.
 struct RenderJob {
@@ -50,16 +45,18 @@ std::vector<render::Rect> tiles_of(const RenderJob& job, std::uint32_t ranks);
 /// How the job's tiles are to be shared out.
 scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tiles);
 
-/// A rank's share of a job: renders any of its tiles. What it delivers for a tile is its ray counts, then its
-/// pixels, layer by layer.
+/// A rank's share of a job: renders any of its tiles.
 class TileWork {
  public:
-  TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles);
+  /// `packing` changes how a tile travels, not what arrives.
+  TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles,
+           Packing packing = Packing::never);
 
   scheduler::Bytes operator()(scheduler::TaskId task, const std::function<void()>& between_slices) const;
 
  private:
   render::TileRenderer renderer_;
+  TileCodec codec_;
   render::PixelFormat format_;
   Layers layers_;
   std::span<const render::Rect> tiles_;
@@ -70,7 +67,7 @@ class Mosaic {
  public:
   Mosaic(const RenderJob& job, std::span<const render::Rect> tiles);
 
-  /// throws:  std::runtime_error where the bytes do not fit the tile
+  /// throws:  std::runtime_error with the tile's number where the bytes are no such tile
   void accept(scheduler::TaskId task, std::span<const std::byte> delivered);
 
   const render::Image& image() const noexcept { return image_; }
@@ -84,13 +81,19 @@ class Mosaic {
   std::span<const render::RayCounts> rays() const noexcept { return rays_; }
 
  private:
-  /// Copies a tile's rows of one layer to their place, and returns where the next layer begins.
-  const std::byte* place(const render::Rect& tile, std::size_t pixel_size, const std::byte* from, std::byte* to) const;
+  /// Copies a tile's rows of one layer to their place.
+  void place(const render::Rect& tile, std::span<const std::byte> layer, std::span<std::byte> to) const;
+  /// Gives all of a tile's pixels this colour.
+  void fill(const render::Rect& tile, std::span<const std::byte> color);
+  /// Where the first pixel of a tile's row is among those of the picture.
+  std::size_t row_start(const render::Rect& tile, std::uint32_t row) const noexcept {
+    return std::size_t{tile.y - area_.y + row} * area_.width + (tile.x - area_.x);
+  }
 
   render::Image image_;
   render::SignatureImage signatures_;
   std::vector<float> errors_;
-  Layers layers_;
+  TileCodec codec_;
   render::Rect area_;
   std::uint64_t samples_;
   std::span<const render::Rect> tiles_;

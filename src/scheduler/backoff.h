@@ -14,8 +14,9 @@ enum class Patience : std::uint8_t {
 };
 
 /// Successive waits give way more and more: spin, yield, then sleep for a twentieth of the time waited so far, between
-/// 50 us and 1 ms. So what ends a long wait is noticed at most 5 % late, and an idle rank leaves its core alone. Call
-/// `wait` after every look that found nothing, `reset` after one that found something.
+/// 50 us and 1 ms. So what ends a long wait is noticed at most 5 % late, and an idle rank leaves its core alone. Ranks
+/// that have their cores yield for so long that two who answer each other do not fall asleep in turn. Call `wait` after
+/// every look that found nothing, `reset` after one that found something.
 class Backoff {
  public:
   explicit Backoff(Patience patience) noexcept : patience_(patience) {}

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scheduler/loopback.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tessera::scheduler {
@@ -12,35 +11,44 @@ class LoopbackNetwork::Endpoint final : public Transport {
 
   Rank rank() const noexcept override { return rank_; }
   std::uint32_t size() const noexcept override { return network_.size(); }
-  void flush() override {}  // what is sent lies in the receiver's mailbox already
+  bool try_flush() override { return true; }  // what is sent lies in the receiver's mailbox already
+  void abandon(Rank) override {}
   bool is_oversubscribed() const noexcept override { return size() > 1; }
 
  private:
-  void do_send(Rank to, Bytes&& message) override { network_.mailboxes_.at(to).push_back({rank_, std::move(message)}); }
-  std::optional<Envelope> do_receive() override { return network_.deliver(rank_); }
+  void do_send(Rank to, std::span<const std::byte> head, std::span<const std::byte> rest) override {
+    Letter letter{rank_, Bytes(head.begin(), head.end())};
+    letter.bytes.insert(letter.bytes.end(), rest.begin(), rest.end());
+    network_.mailboxes_.at(to).push_back(std::move(letter));
+  }
+
+  std::optional<Envelope> do_receive() override {
+    opened_ = network_.deliver(rank_);
+    if (!opened_) return std::nullopt;
+    return Envelope{opened_->source, opened_->bytes};
+  }
 
   LoopbackNetwork& network_;
   Rank rank_;
+  std::optional<Letter> opened_;  ///< what the last envelope shows
 };
 
-LoopbackNetwork::LoopbackNetwork(std::uint32_t ranks, std::uint64_t seed) : random_(seed), mailboxes_(ranks) {
+LoopbackNetwork::LoopbackNetwork(std::uint32_t ranks, std::uint64_t seed, Order order)
+    : random_(seed), order_(order), mailboxes_(ranks) {
   for (Rank rank = 0; rank < ranks; ++rank) transports_.push_back(std::make_unique<Endpoint>(*this, rank));
 }
 
 LoopbackNetwork::~LoopbackNetwork() = default;
 
-std::optional<Envelope> LoopbackNetwork::deliver(Rank to) {
-  std::vector<Envelope>& mailbox = mailboxes_[to];
+std::optional<LoopbackNetwork::Letter> LoopbackNetwork::deliver(Rank to) {
+  std::vector<Letter>& mailbox = mailboxes_[to];
   const bool still_on_its_way = random_() % 4 == 0;
   if (mailbox.empty() || still_on_its_way) return std::nullopt;
-
-  // Choose a source by one of its messages, then take the first of that source.
-  const Rank source = mailbox[random_() % mailbox.size()].source;
-  const auto first =
-      std::find_if(mailbox.begin(), mailbox.end(), [&](const Envelope& e) { return e.source == source; });
-  Envelope envelope = std::move(*first);
-  mailbox.erase(first);
-  return envelope;
+  const auto chosen =
+      mailbox.begin() + static_cast<std::ptrdiff_t>(order_ == Order::any ? random_() % mailbox.size() : 0);
+  Letter letter = std::move(*chosen);
+  mailbox.erase(chosen);
+  return letter;
 }
 
 }  // namespace tessera::scheduler

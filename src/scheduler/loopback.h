@@ -12,11 +12,14 @@
 // can be repeated.
 namespace tessera::scheduler {
 
-/// Delivers in order between two ranks and in random order between pairs, and now and then says that nothing is here
-/// yet although something is on its way. Equal seeds and equal calls give equal deliveries, on every platform.
+/// In which order a rank's messages arrive.
+enum class Order : std::uint8_t { any, as_sent };
+
+/// Delivers, and now and then says that nothing is here yet although something is on its way. Equal seeds and equal
+/// calls give equal deliveries, on every platform.
 class LoopbackNetwork {
  public:
-  LoopbackNetwork(std::uint32_t ranks, std::uint64_t seed);
+  LoopbackNetwork(std::uint32_t ranks, std::uint64_t seed, Order order = Order::any);
   ~LoopbackNetwork();
 
   std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(mailboxes_.size()); }
@@ -27,10 +30,16 @@ class LoopbackNetwork {
  private:
   class Endpoint;
 
-  std::optional<Envelope> deliver(Rank to);
+  struct Letter {
+    Rank source = 0;
+    Bytes bytes;
+  };
+
+  std::optional<Letter> deliver(Rank to);
 
   std::mt19937_64 random_;
-  std::vector<std::vector<Envelope>> mailboxes_;  ///< per receiver, in the order of sending
+  Order order_;
+  std::vector<std::vector<Letter>> mailboxes_;  ///< per receiver
   std::vector<std::unique_ptr<Transport>> transports_;
 };
 

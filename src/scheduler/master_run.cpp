@@ -187,6 +187,7 @@ void MasterRun::perform(const Stop& stop) {
 }
 
 void MasterRun::perform(const GiveUp& give_up) {
+  transport_.abandon(give_up.rank);
   record_.lost.push_back({give_up.rank, record_.ranks[give_up.rank].host, processes_[give_up.rank]});
 }
 

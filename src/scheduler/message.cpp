@@ -169,15 +169,13 @@ Bytes encode(const AssignMessage& assign) {
   return encode_runs(kAssign, assign.runs);
 }
 
-Bytes encode(const ResultMessage& result, Bytes&& payload) {
+std::array<std::byte, kResultHeaderBytes> encode_header(const ResultMessage& result) {
   WireResult wire;
   wire.task = index_of(result.task);
   wire.start_ns = result.start_ns;
   wire.busy_ns = result.busy_ns;
-  wire.checksum = checksum_of(wire, payload);
-  const auto header = std::as_bytes(std::span(&wire, 1));
-  payload.insert(payload.begin(), header.begin(), header.end());
-  return std::move(payload);
+  wire.checksum = checksum_of(wire, result.payload);
+  return std::bit_cast<std::array<std::byte, kResultHeaderBytes>>(wire);
 }
 
 Bytes encode(const BackMessage& back) {

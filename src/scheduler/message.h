@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -72,8 +73,8 @@ using Message = std::variant<Malformed, HelloMessage, AssignMessage, ResultMessa
 Bytes encode(const HelloMessage& hello);
 /// shapes:  1 to 3 runs, none of them empty
 Bytes encode(const AssignMessage& assign);
-/// Puts the header in front of `payload`, whose memory is used where it has room; `result.payload` is not looked at.
-Bytes encode(const ResultMessage& result, Bytes&& payload);
+/// The message is these bytes and, behind them, the payload.
+std::array<std::byte, kResultHeaderBytes> encode_header(const ResultMessage& result);
 /// shapes:  at least one task
 Bytes encode(const BackMessage& back);
 /// shapes:  0 to 3 runs, none of them empty

@@ -20,7 +20,7 @@ enum class Step : std::uint8_t {
 /// Steps until finished, giving way while idle.
 template <class Stepper>
 void run_to_end(Stepper& stepper, const Transport& transport) {
-  Backoff backoff(transport.is_oversubscribed() ? Patience::yield_only : Patience::spin_first);
+  Backoff backoff(transport.patience());
   for (Step step = stepper.step(); step != Step::finished; step = stepper.step()) {
     if (step == Step::worked) {
       backoff.reset();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
+#include <span>
 
+#include "scheduler/backoff.h"
 #include "scheduler/bytes.h"
 #include "scheduler/task.h"
 
@@ -14,11 +16,10 @@ namespace tessera::scheduler {
 /// A message and where it came from.
 struct Envelope {
   Rank source = 0;
-  Bytes bytes;
+  std::span<const std::byte> bytes;  ///< gone with the next `receive`
 };
 
-/// Messages from one rank to another arrive complete, once, and in the order in which they were sent; between
-/// different pairs there is no order. No call waits, except flush.
+/// Messages arrive complete and once, in any order, between the same two ranks too. No call waits, except flush.
 class Transport {
  public:
   Transport() = default;
@@ -29,11 +30,11 @@ class Transport {
   virtual Rank rank() const noexcept = 0;
   virtual std::uint32_t size() const noexcept = 0;  ///< ranks in all
 
-  /// Sends `message` on its way and keeps its memory until it has left.
-  void send(Rank to, Bytes&& message) {
+  /// Sends one message, `head` and then `rest`, on its way. Both are copied.
+  void send(Rank to, std::span<const std::byte> head, std::span<const std::byte> rest = {}) {
     ++sent_.count;
-    sent_.bytes += message.size();
-    do_send(to, std::move(message));
+    sent_.bytes += head.size() + rest.size();
+    do_send(to, head, rest);
   }
 
   /// The next message that is here, or nullopt.
@@ -46,17 +47,29 @@ class Transport {
     return envelope;
   }
 
-  /// Waits until everything sent has left.
-  virtual void flush() = 0;
+  /// Moves on what was sent, and says whether all of it has left, but for what went to abandoned ranks.
+  virtual bool try_flush() = 0;
+
+  /// Waits until try_flush says yes: for ever, where a rank that takes nothing any more is not abandoned.
+  void flush() {
+    Backoff backoff(patience());
+    while (!try_flush()) backoff.wait();
+  }
+
+  /// Waits no longer for a rank that is lost: neither for what was sent to it, nor for the rest of a large message that
+  /// it has begun to send. What it sends whole is received all the same.
+  virtual void abandon(Rank rank) = 0;
 
   /// Whether other ranks need this rank's core, so that waiting must not burn it.
   virtual bool is_oversubscribed() const noexcept = 0;
+
+  Patience patience() const noexcept { return is_oversubscribed() ? Patience::yield_only : Patience::spin_first; }
 
   const Traffic& sent() const noexcept { return sent_; }
   const Traffic& received() const noexcept { return received_; }
 
  private:
-  virtual void do_send(Rank to, Bytes&& message) = 0;
+  virtual void do_send(Rank to, std::span<const std::byte> head, std::span<const std::byte> rest) = 0;
   virtual std::optional<Envelope> do_receive() = 0;
 
   Traffic sent_;

@@ -38,8 +38,8 @@ Step WorkerRun::step() {
   const std::optional<TaskId> task = worker_.next();
   if (!task) return got_messages ? Step::worked : Step::idle;
   try {
-    TimedResult result = work_.run(*task);
-    send(encode(ResultMessage{*task, result.start_ns, result.busy_ns, {}}, std::move(result.payload)));
+    const TimedResult result = work_.run(*task);
+    send(encode_header({*task, result.start_ns, result.busy_ns, result.payload}), result.payload);
   } catch (const SentHome&) {
     return go_home();
   }
@@ -69,8 +69,8 @@ void WorkerRun::look_up_from_task() {
   if (clock_.seconds() >= next_sign_s_) send(encode(AliveMessage{}));
 }
 
-void WorkerRun::send(Bytes&& message) {
-  transport_.send(kMasterRank, std::move(message));
+void WorkerRun::send(std::span<const std::byte> head, std::span<const std::byte> rest) {
+  transport_.send(kMasterRank, head, rest);
   next_sign_s_ = clock_.seconds() + sign_every_s_;
 }
 

@@ -26,7 +26,7 @@ class WorkerRun {
  private:
   bool take_messages();
   void look_up_from_task();
-  void send(Bytes&& message);
+  void send(std::span<const std::byte> head, std::span<const std::byte> rest = {});
   Step go_home();
 
   void on(const AssignMessage& assign);

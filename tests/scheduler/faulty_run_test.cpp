@@ -36,19 +36,22 @@ class BreakingTransport final : public Transport {
 
   Rank rank() const noexcept override { return sound_.rank(); }
   std::uint32_t size() const noexcept override { return sound_.size(); }
-  void flush() override { sound_.flush(); }
+  bool try_flush() override { return sound_.try_flush(); }
+  void abandon(Rank rank) override { sound_.abandon(rank); }
   bool is_oversubscribed() const noexcept override { return sound_.is_oversubscribed(); }
   std::uint64_t broken() const noexcept { return broken_; }
 
  private:
-  void do_send(Rank to, Bytes&& message) override {
+  void do_send(Rank to, std::span<const std::byte> head, std::span<const std::byte> rest) override {
+    Bytes message(head.begin(), head.end());
+    message.insert(message.end(), rest.begin(), rest.end());
     const bool is_result = std::holds_alternative<ResultMessage>(decode(message));
     if (is_result && one_in_ > 0 && random_() % one_in_ == 0) {
       const std::size_t bit = 32 + random_() % (8 * message.size() - 32);
       message[bit / 8] ^= std::byte{static_cast<unsigned char>(1U << (bit % 8))};
       ++broken_;
     }
-    sound_.send(to, std::move(message));
+    sound_.send(to, message);
   }
   std::optional<Envelope> do_receive() override { return sound_.receive(); }
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "scheduler/by_hand.h"
+
 namespace tessera::scheduler {
 namespace {
 
@@ -27,7 +29,7 @@ Bytes assign() {
 }
 
 Bytes result() {
-  return encode(ResultMessage{TaskId{9}, 1, 2, {}}, Bytes());
+  return encode_whole(ResultMessage{TaskId{9}, 1, 2, {}}, Bytes());
 }
 
 Bytes back() {
@@ -99,7 +101,7 @@ BOOST_AUTO_TEST_CASE(result_comes_back_with_its_payload) {
   for (const std::size_t size : {0U, 1U, 3072U}) {
     Bytes payload(size);
     for (std::size_t i = 0; i < size; ++i) payload[i] = static_cast<std::byte>(i * 7);
-    const Bytes bytes = encode(ResultMessage{TaskId{5}, 123456789012345, 42, {}}, Bytes(payload));
+    const Bytes bytes = encode_whole(ResultMessage{TaskId{5}, 123456789012345, 42, {}}, Bytes(payload));
     BOOST_TEST(bytes.size() == kResultHeaderBytes + size);
     const auto decoded = std::get<ResultMessage>(decode(bytes));
     BOOST_TEST(index_of(decoded.task) == 5U);
@@ -158,7 +160,7 @@ BOOST_AUTO_TEST_CASE(each_message_has_its_own_bytes) {
   BOOST_TEST(in_hex(alive()) == "414c4956");
   BOOST_TEST(in_hex(stop()) == "53544f50");
   BOOST_TEST(in_hex(bye()) == "42594520");
-  const Bytes delivered = encode(ResultMessage{TaskId{0x01020304}, 0x1122, 0x3344, {}}, Bytes{std::byte{0xab}});
+  const Bytes delivered = encode_whole(ResultMessage{TaskId{0x01020304}, 0x1122, 0x3344, {}}, Bytes{std::byte{0xab}});
   BOOST_TEST(in_hex(delivered) ==
              "52534c54"
              "04030201"
@@ -204,7 +206,7 @@ BOOST_AUTO_TEST_CASE(another_kind_is_rejected) {
 
 BOOST_AUTO_TEST_CASE(each_flipped_bit_of_a_result_is_found) {
   for (const std::size_t size : {0U, 1U, 3U, 100U, 3072U}) {
-    const Bytes whole = encode(ResultMessage{TaskId{5}, 123456789012345, 42, {}}, Bytes(size, std::byte{0x5a}));
+    const Bytes whole = encode_whole(ResultMessage{TaskId{5}, 123456789012345, 42, {}}, Bytes(size, std::byte{0x5a}));
     for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
       Bytes bytes = whole;
       bytes[bit / 8] ^= std::byte{static_cast<unsigned char>(1U << (bit % 8))};
@@ -221,7 +223,7 @@ BOOST_AUTO_TEST_CASE(each_flipped_bit_of_a_result_is_found) {
 }
 
 BOOST_AUTO_TEST_CASE(a_result_of_another_length_is_damaged) {
-  const Bytes whole = encode(ResultMessage{TaskId{5}, 1, 2, {}}, Bytes(200, std::byte{0}));
+  const Bytes whole = encode_whole(ResultMessage{TaskId{5}, 1, 2, {}}, Bytes(200, std::byte{0}));
   for (std::size_t length = kResultHeaderBytes; length < whole.size() + 50; ++length) {
     Bytes bytes = whole;
     bytes.resize(length);
@@ -231,8 +233,8 @@ BOOST_AUTO_TEST_CASE(a_result_of_another_length_is_damaged) {
 
 BOOST_AUTO_TEST_CASE(the_payload_of_another_task_is_damaged) {
   // A header and a payload that are sound each, but not of one message.
-  const Bytes one = encode(ResultMessage{TaskId{1}, 10, 20, {}}, Bytes(64, std::byte{1}));
-  Bytes mixed = encode(ResultMessage{TaskId{2}, 10, 20, {}}, Bytes(64, std::byte{2}));
+  const Bytes one = encode_whole(ResultMessage{TaskId{1}, 10, 20, {}}, Bytes(64, std::byte{1}));
+  Bytes mixed = encode_whole(ResultMessage{TaskId{2}, 10, 20, {}}, Bytes(64, std::byte{2}));
   std::copy(one.begin() + kResultHeaderBytes, one.end(), mixed.begin() + kResultHeaderBytes);
   BOOST_TEST(index_of(std::get<DamagedMessage>(decode(mixed)).task) == 2U);
 }

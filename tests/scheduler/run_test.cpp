@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scheduler/all_policies.h"
+#include "scheduler/by_hand.h"
 #include "scheduler/loopback.h"
 #include "scheduler/message.h"
 
@@ -207,14 +208,14 @@ BOOST_AUTO_TEST_CASE(a_rank_that_breaks_the_protocol_is_named) {
   RunList runs;
   runs.push(TaskId{0});
   const std::vector<Bytes> broken{
-      Bytes(3),                                                // junk
-      encode(StopMessage{}),                                   // not for rank 0
-      encode(AssignMessage{runs}),                             // not for rank 0
-      encode(BackMessage{1}),                                  // not for rank 0
-      encode(ByeMessage{}),                                    // nobody asked for it
-      encode(ReturnMessage{runs}),                             // a task that it does not hold
-      encode(ResultMessage{TaskId{7}, 0, 0, {}}, Bytes()),     // a task that it does not hold
-      encode(ResultMessage{TaskId{1000}, 0, 0, {}}, Bytes()),  // a task that there is not
+      Bytes(3),                                                      // junk
+      encode(StopMessage{}),                                         // not for rank 0
+      encode(AssignMessage{runs}),                                   // not for rank 0
+      encode(BackMessage{1}),                                        // not for rank 0
+      encode(ByeMessage{}),                                          // nobody asked for it
+      encode(ReturnMessage{runs}),                                   // a task that it does not hold
+      encode_whole(ResultMessage{TaskId{7}, 0, 0, {}}, Bytes()),     // a task that it does not hold
+      encode_whole(ResultMessage{TaskId{1000}, 0, 0, {}}, Bytes()),  // a task that there is not
   };
   for (const Bytes& message : broken) {
     LoopbackNetwork network(3, 1);

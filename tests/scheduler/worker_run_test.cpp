@@ -45,7 +45,7 @@ struct Pair {
     BOOST_FAIL("it does not end");
   }
 
-  LoopbackNetwork network{2, 1};
+  LoopbackNetwork network{2, 1, Order::as_sent};
   Transport& master = network.transport(kMasterRank);
   WorkerRun worker;
 };
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_SUITE(worker_run)
 BOOST_AUTO_TEST_CASE(it_says_hello_and_begins_with_what_the_plan_gives_it) {
   Plan plan;
   plan.tasks = 10;
-  LoopbackNetwork network(3, 1);
+  LoopbackNetwork network(3, 1, Order::as_sent);
   Transport& master = network.transport(kMasterRank);
   WorkerRun worker(network.transport(2), plan, [](TaskId task, const auto&) { return Bytes(index_of(task)); });
   const auto hello = take<HelloMessage>(master);
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(a_step_does_one_task) {
 }
 
 BOOST_AUTO_TEST_CASE(messages_are_taken_between_the_slices_of_a_task) {
-  LoopbackNetwork network(2, 1);
+  LoopbackNetwork network(2, 1, Order::as_sent);
   Transport& master = network.transport(kMasterRank);
   std::vector<std::uint32_t> done;
   const Work work = [&](TaskId task, const auto& between_slices) {
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(it_is_sent_home_from_the_middle_of_a_task) {
     int& count;
     ~Cleaner() { ++count; }
   };
-  LoopbackNetwork network(2, 1);
+  LoopbackNetwork network(2, 1, Order::as_sent);
   Transport& master = network.transport(kMasterRank);
   const Work work = [&](TaskId, const auto& between_slices) {
     const Cleaner cleaner{cleaned_up};
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(a_long_task_gives_signs_of_life) {
   Plan plan;
   plan.lease_s = 8e-3;
   const Stopwatch since_start;
-  LoopbackNetwork network(2, 1);
+  LoopbackNetwork network(2, 1, Order::as_sent);
   Transport& own = network.transport(1);
   const Work work = [&](TaskId, const auto& between_slices) {
     while (own.sent().count < 6 && since_start.seconds() < kFarTooLongSeconds) between_slices();
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(signs_are_a_quarter_of_a_lease_apart) {
   Plan plan;
   plan.lease_s = 4e-3;
   const Stopwatch since_start;
-  LoopbackNetwork network(2, 1);
+  LoopbackNetwork network(2, 1, Order::as_sent);
   const Work work = [&](TaskId, const auto& between_slices) {
     const Stopwatch in_task;
     while (in_task.seconds() < 2.5 * plan.lease_s) between_slices();
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(who_has_no_task_or_no_lease_gives_no_signs) {
 }
 
 BOOST_AUTO_TEST_CASE(it_gives_back_what_it_has_not_begun) {
-  LoopbackNetwork network(2, 1);
+  LoopbackNetwork network(2, 1, Order::as_sent);
   Transport& master = network.transport(kMasterRank);
   std::vector<std::uint32_t> done;
   const Work work = [&](TaskId task, const auto& between_slices) {

@@ -33,6 +33,21 @@ Communicator Communicator::of_part(const Communicator& whole, int part) {
   return same;
 }
 
+Communicator Communicator::copy_of(const Communicator& original, Patience patience) {
+  MPI_Comm handle = MPI_COMM_NULL;
+  MPI_Request request = MPI_REQUEST_NULL;
+  check(MPI_Comm_idup(original.get(), &handle, &request), "MPI_Comm_idup");
+  Backoff backoff(patience);
+  for (int complete = 0;;) {
+    check(MPI_Test(&request, &complete, MPI_STATUS_IGNORE), "MPI_Test");
+    if (complete != 0) break;
+    backoff.wait();
+  }
+  Communicator copy(handle);
+  check(MPI_Comm_set_errhandler(handle, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  return copy;
+}
+
 Communicator::Communicator(Communicator&& other) noexcept : handle_(std::exchange(other.handle_, MPI_COMM_NULL)) {}
 
 Communicator::~Communicator() {

@@ -3,6 +3,8 @@
 
 #include <mpi.h>
 
+#include "scheduler/backoff.h"
+
 // Internal to this folder: the headers for others don't include mpi.h.
 namespace tessera::scheduler::mpi {
 
@@ -18,6 +20,10 @@ class Communicator {
   /// The processes of `whole` that are in the same part as this one, in the same order. Collective.
   /// shapes:  0 <= part < 2^31
   static Communicator of_part(const Communicator& whole, int part);
+
+  /// The same processes once more, apart from what goes on in `original`. Collective, and waiting gives way as
+  /// `patience` says.
+  static Communicator copy_of(const Communicator& original, Patience patience);
 
   Communicator(Communicator&& other) noexcept;
   Communicator& operator=(Communicator&&) = delete;
