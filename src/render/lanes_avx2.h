@@ -47,6 +47,10 @@ inline Float8 operator/(Float8 a, Float8 b) noexcept {
 inline LaneMask operator<=(Float8 a, Float8 b) noexcept {
   return static_cast<LaneMask>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
 }
+/// Bits of the lanes that are negative, -0 too.
+inline LaneMask negative_lanes(Float8 a) noexcept {
+  return static_cast<LaneMask>(_mm256_movemask_ps(a.v));
+}
 inline Float8 min(Float8 a, Float8 b) noexcept {
   return {_mm256_min_ps(a.v, b.v)};
 }

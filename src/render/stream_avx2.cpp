@@ -3,7 +3,6 @@
 
 #include "render/entry_points.h"
 #include "render/intersect.h"
-#include "render/search.h"
 #include "render/stream.h"
 #include "render/traversal_avx2.h"
 
@@ -14,6 +13,8 @@ namespace {
 
 class NearestQueries {
  public:
+  using Search = FloatNearestSearch;
+
   NearestQueries(const Scene& scene, std::span<const RayInRegion> rays,
                  std::span<std::optional<SurfacePoint>> points) noexcept
       : scene_(scene), rays_(rays), points_(points) {}
@@ -27,13 +28,17 @@ class NearestQueries {
     return false;
   }
   std::size_t number() const noexcept { return number_; }
-  NearestSearch search() const noexcept { return {scene_, rays_[number_].ray, *rays_[number_].region}; }
-  void answer(std::size_t number, NearestSearch& search) noexcept {
-    const SurfaceId sphere = search.sure_entry();
-    if (sphere == SurfaceId::none) {
-      points_[number] = search.finish();
-      return;
+  const Ray& ray() const noexcept { return rays_[number_].ray; }
+  Search search() const noexcept { return {scene_, ray(), *rays_[number_].region}; }
+  void answer(std::size_t number, Search& search) noexcept {
+    SurfaceId sphere = search.first();
+    if (NearestSearch* const exact = search.exact()) {
+      sphere = exact->sure_entry();
+      if (sphere == SurfaceId::none) points_[number] = exact->finish();
+    } else if (sphere == SurfaceId::none) {
+      points_[number] = std::nullopt;
     }
+    if (sphere == SurfaceId::none) return;
     entries_[size_++] = {static_cast<std::uint32_t>(number), sphere};
     if (size_ == kEntriesTogether) finish();
   }
@@ -57,6 +62,8 @@ class NearestQueries {
 
 class OcclusionQueries {
  public:
+  using Search = FloatOcclusionSearch;
+
   OcclusionQueries(const Scene& scene, std::span<const RayInRegion> to_light, std::size_t light,
                    std::span<std::uint8_t> occluded) noexcept
       : scene_(scene), rays_(to_light), light_(light), occluded_(occluded) {
@@ -77,8 +84,9 @@ class OcclusionQueries {
     return false;
   }
   std::size_t number() const noexcept { return number_; }
-  OcclusionSearch search() const noexcept { return {scene_, rays_[number_].ray, end_, light_, *rays_[number_].region}; }
-  void answer(std::size_t number, const OcclusionSearch& search) noexcept { occluded_[number] = search.is_occluded(); }
+  const Ray& ray() const noexcept { return rays_[number_].ray; }
+  Search search() const noexcept { return {scene_, ray(), end_, light_, *rays_[number_].region}; }
+  void answer(std::size_t number, const Search& search) noexcept { occluded_[number] = search.is_occluded(); }
   void finish() noexcept {}
 
  private:
@@ -92,15 +100,15 @@ class OcclusionQueries {
   std::size_t number_ = std::size_t{0} - 1;
 };
 
-template <class Search, class Queries>
+template <class Queries>
 void answer_all(const Scene& scene, Queries queries) noexcept {
   if (scene.bvh().nodes().empty()) {
     while (queries.find_next()) {
-      Search search = queries.search();
+      typename Queries::Search search = queries.search();
       queries.answer(queries.number(), search);
     }
   } else {
-    RayStream<Search, Queries>(scene.bvh(), queries).run();
+    RayStream<Queries>(scene.bvh(), queries).run();
   }
   queries.finish();
 }
@@ -109,12 +117,12 @@ void answer_all(const Scene& scene, Queries queries) noexcept {
 
 [[gnu::flatten]] void nearest_hits(const Scene& scene, std::span<const RayInRegion> rays,
                                    std::span<std::optional<SurfacePoint>> points) {
-  answer_all<NearestSearch>(scene, NearestQueries(scene, rays, points));
+  answer_all(scene, NearestQueries(scene, rays, points));
 }
 
 [[gnu::flatten]] void occlusions(const Scene& scene, std::span<const RayInRegion> to_light, std::size_t light,
                                  std::span<std::uint8_t> occluded) {
-  answer_all<OcclusionSearch>(scene, OcclusionQueries(scene, to_light, light, occluded));
+  answer_all(scene, OcclusionQueries(scene, to_light, light, occluded));
 }
 
 }  // namespace tessera::render::avx2

@@ -100,7 +100,8 @@ struct TreeRay {
   }
 
   void set_scalars(const TreeSpace& space, const Start& start, double inverse_length) noexcept {
-    sphere_error = TreeSpace::up(std::min(kSphereError * sum_of_sizes(start.origin) + 4 * start.off, 4 * kFarthest));
+    sphere_error = TreeSpace::up(std::min(kSphereError * sum_of_sizes(start.origin) + 4 * start.off, 4 * kFarthest) +
+                                 4 * TreeSpace::kFloor);
     t_scale = space.scale / inverse_length * (1 + 0x1p-50);
     t_shift = start.shift * (1 - 0x1p-50);
   }
@@ -108,6 +109,11 @@ struct TreeRay {
   /// Scene distances in the tree's units, rounded up.
   float t_of(double t) const noexcept {
     return std::min(TreeSpace::up(t * t_scale - t_shift), std::numeric_limits<float>::max());
+  }
+  /// The same, rounded down: both scale and shift are known to 2^-50 and their own rounding.
+  float least_t_of(double t) const noexcept {
+    const double least = t * (t_scale * (1 - 0x1p-48)) - t_shift * (1 + 0x1p-48);
+    return TreeSpace::down(std::min(least, 0x1p120));
   }
 };
 

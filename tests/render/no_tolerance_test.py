@@ -6,10 +6,11 @@ import pathlib
 import re
 import sys
 
-TRACING = """bounded bvh certified decide dyadic entry_points entry_points_avx2 exact exact_formula frustum
-frustum_avx2 intersect light_cells light_cells_avx2 light_grid order path_observer perpendicular_avx2 phong plane
-raster raster_avx2 ray ray_counts region scene search shading shading_avx2 signature signature_observer sphere stream
-stream_avx2 tile_renderer tracer traversal_avx2 tree_space vec3 vec3_avx2 vec3_lanes vertex vertices wavefront""".split()
+TRACING = """bounded bvh certified decide dyadic entry_points entry_points_avx2 exact exact_formula float_search_avx2
+frustum frustum_avx2 intersect light_cells light_cells_avx2 light_grid order path_observer perpendicular_avx2 phong
+plane raster raster_avx2 ray ray_counts region scene search shading shading_avx2 signature signature_observer sphere
+stream stream_avx2 tile_renderer tracer traversal_avx2 tree_space vec3 vec3_avx2 vec3_lanes vertex
+vertices wavefront""".split()
 SMALL = re.compile(r"\b\d+(?:\.\d*)?e-\d+|\b0\.0\d*", re.IGNORECASE)
 NAMED = re.compile(r"epsilon|\beps\b|\bt_?min\b|tolerance|\bbias\b|\bnudge", re.IGNORECASE)
 

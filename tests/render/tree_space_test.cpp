@@ -207,4 +207,26 @@ BOOST_AUTO_TEST_CASE(distances_in_the_tree_are_rounded_up) {
   BOOST_TEST(far_above == 0);
 }
 
+// In extended precision, which knows them to 2^-60 or so.
+BOOST_AUTO_TEST_CASE(scene_distances_are_rounded_up_and_down) {
+  Random random(108);
+  TreeSpace space;
+  space.scale = 0x1p-3;
+  space.extent = 1;
+  for (int i = 0; i != 20000; ++i) {
+    const Vec3 d = random.over_decades(1e-9, 1e9) * random.direction();
+    const Ray ray{.origin = random.over_decades(1e-3, 1e9) * random.direction(), .direction = d};
+    const TreeRay tree_ray(space, ray, 1 / length(d));
+    const double shift = TreeRay::start_of(space, ray, 1 / length(d)).shift;
+    // From the ray's start in the tree to a little farther, and to far away
+    const double t = (shift + random.over_decades(1e-9, 1e9)) / (space.scale * length(d));
+    const long double squared =
+        static_cast<long double>(d.x) * d.x + static_cast<long double>(d.y) * d.y + static_cast<long double>(d.z) * d.z;
+    const long double exact = static_cast<long double>(t) * space.scale * std::sqrt(squared) - shift;
+    BOOST_REQUIRE(tree_ray.least_t_of(t) <= exact);
+    BOOST_REQUIRE(exact <= tree_ray.t_of(t));
+    BOOST_REQUIRE(tree_ray.t_of(t) - tree_ray.least_t_of(t) <= 0x1p-20L * exact + 0x1p-38L + 0x1p-46L * shift);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
