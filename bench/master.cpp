@@ -54,7 +54,8 @@ struct Setting {
     }
     master.emplace(plan, ranks);
     actions.reserve(ranks + 1);
-    for (Rank rank = 1; rank != ranks; ++rank) actions.push_back(Assign{rank, first_tasks(plan, ranks, rank)});
+    const std::vector<RunList> first = first_tasks(plan, ranks);
+    for (Rank rank = 1; rank != ranks; ++rank) actions.push_back(Assign{rank, first[rank]});
     take(actions, held);
     for (std::int64_t i = 0; i != kResults; ++i) {
       senders.push_back(static_cast<Rank>(1 + random() % (ranks - 1)));

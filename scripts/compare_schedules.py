@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares ways to share a picture out among ranks: static bands, cyclic rows, tiles on demand.
+"""Compares ways to share a picture out among ranks: static bands, cyclic rows, tiles on demand, guided, factoring,
+trapezoid, and tiles cut to what an earlier run found.
 
 Runs every schedule in turn, several times over, checks that all pictures are the same bytes, and prints one table per
 scene; the same numbers go to compare_schedules.csv in the output folder.
@@ -28,16 +29,19 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 DEFAULT_SCENES = [ROOT / "scenes" / name for name in ("corner_cluster.toml", "empty_top.toml", "uniform_cloud.toml")]
 BUILDS = [ROOT / "build" / preset / "tessera" for preset in ("release", "demo")]
 UNTILED = {"static-bands", "cyclic-rows"}  # these cut the picture themselves
+ALL = "static-bands,cyclic-rows,dynamic,self,guided,factoring,trapezoid"
 
 
 @dataclasses.dataclass(frozen=True)
 class Variant:
-    """One way to render: a schedule and, where it has one, a tile size."""
+    """One way to render: a schedule and, where it has one, a tile size; "costs" is one that cuts to an earlier run."""
 
     schedule: str
     tile_size: str  # "" for a schedule that cuts the picture itself
 
     def options(self):
+        if self.tile_size == "costs":
+            return ["--schedule", self.schedule, "--costs", COSTS]
         return ["--schedule", self.schedule] + (["--tile-size", self.tile_size] if self.tile_size else [])
 
     def __str__(self):
@@ -45,6 +49,7 @@ class Variant:
 
 
 ONE_RANK = Variant("dynamic", "16")
+COSTS = "costs.csv"  # what the first run on one rank found
 
 
 def fail(message):
@@ -61,13 +66,16 @@ def variants_of(schedules, tile_sizes):
 def render(tessera, scene, variant, ranks, resolution, folder):
     """Renders once and returns (statistics, picture bytes)."""
     picture, stats = folder / "picture.ppm", folder / "stats.json"
-    command = ["mpirun", "-n", str(ranks), "--oversubscribe", tessera, "render", scene, "-q", "-o", picture,
-               "--stats", stats, *variant.options()]
+    command = ["mpirun", "-n", str(ranks), "--oversubscribe", os.path.abspath(tessera), "render", os.path.abspath(scene),
+               "-q", "-o", picture, "--stats", stats, *variant.options()]
+    if variant is ONE_RANK:
+        command += ["--tile-stats", COSTS]
     if resolution:
         command += ["--resolution", resolution]
     environment = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     try:
-        run = subprocess.run(list(map(str, command)), env=environment, capture_output=True, text=True, check=False)
+        run = subprocess.run(list(map(str, command)), cwd=folder, env=environment, capture_output=True, text=True,
+                             check=False)
     except FileNotFoundError:
         fail("mpirun is not installed (Debian package openmpi-bin)")
     if run.returncode != 0:
@@ -154,8 +162,9 @@ def parse(words):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", default=DEFAULT_SCENES, metavar="SCENE", help="default: three of scenes/")
     parser.add_argument("--ranks", type=int, default=2, help="ranks to start [%(default)s]")
-    parser.add_argument("--tile-size", default="16,32", help="tile sizes, with commas between [%(default)s]")
-    parser.add_argument("--schedules", default="static-bands,cyclic-rows,dynamic", help="[%(default)s]")
+    parser.add_argument("--tile-size", default="16,32,auto,costs",
+                        help="tile sizes, with commas between; costs: cut to what one rank found [%(default)s]")
+    parser.add_argument("--schedules", default="static-bands,cyclic-rows,dynamic", help=f"some of {ALL} [%(default)s]")
     parser.add_argument("--repeat", type=int, default=3, help="runs of each [%(default)s]")
     parser.add_argument("--resolution", metavar="WxH", help="instead of the scene's own")
     parser.add_argument("--tessera", default=next(filter(pathlib.Path.exists, BUILDS), BUILDS[0]), metavar="PATH",

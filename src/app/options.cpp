@@ -136,12 +136,23 @@ void add_schedule_options(CLI::App& app, RenderOptions& options) {
   const auto group = app.add_option_group("Schedule", "how ranks share the work; the picture stays the same");
   group
       ->add_option_function<std::string>(
-          "--tile-size", [&](const std::string& text) { options.tile = tile_size_of("--tile-size", text); },
-          "tile side in pixels, or width and height [16]")
-      ->type_name("N|WxH");
+          "--tile-size",
+          [&](const std::string& text) {
+            options.tile = text == "auto" ? std::nullopt : std::optional(tile_size_of("--tile-size", text));
+          },
+          "tile side in pixels, or width and height [auto: by area, samples and ranks, or by --costs; bands where "
+          "tiles are not worth handing out]")
+      ->type_name("auto|N|WxH");
+  group
+      ->add_option(
+          "--costs", options.costs,
+          "what --tile-stats wrote in an earlier run, of this picture or one like it, at any resolution of the "
+          "same aspect: the dearest tiles come first and, without a --tile-size, tiles are cut by cost; a "
+          "wrong one never changes the picture [none]")
+      ->type_name("FILE");
   std::vector<std::pair<std::string, Policy>> policies;
-  for (const Policy policy :
-       {Policy::dynamic, Policy::static_bands, Policy::cyclic_rows, Policy::self_scheduling, Policy::guided}) {
+  for (const Policy policy : {Policy::dynamic, Policy::static_bands, Policy::cyclic_rows, Policy::self_scheduling,
+                              Policy::guided, Policy::factoring, Policy::trapezoid}) {
     policies.emplace_back(name_of(policy), policy);
   }
   add_choice<Policy>(*group, "--schedule", policies, "who renders which tiles [dynamic]",
@@ -156,7 +167,7 @@ void add_schedule_options(CLI::App& app, RenderOptions& options) {
           [&](const std::string& text) {
             options.prefetch = text == "auto" ? std::nullopt : std::optional<unsigned>(count_of("--prefetch", text, 1));
           },
-          "tiles that a worker holds [auto]")
+          "tiles that a worker holds, 1: none ahead [auto: enough to cover the way to rank 0]")
       ->type_name("auto|N");
   add_choice<bool>(*group, "--ask-back", {{"on", true}, {"off", false}},
                    "whether idle ranks get tiles that others hold and have not begun [on]",

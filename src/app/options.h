@@ -36,7 +36,8 @@ struct RenderOptions {
   std::optional<render::Transfer> transfer;
   std::optional<render::Shade> shade;
 
-  Size tile{16, 16};
+  std::optional<Size> tile;  ///< none: what suits the picture and the ranks
+  std::optional<std::filesystem::path> costs;
   scheduler::Policy policy = scheduler::Policy::dynamic;
   scheduler::MasterRole master = scheduler::MasterRole::automatic;
   std::optional<unsigned> prefetch;

@@ -104,10 +104,12 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
   const Stopwatch build;
   const render::Scene scene = shared_scene(session, lead->job(), arrays);
   MpiTransport transport(session);
-  session.barrier();
   lead->times().build = build.seconds();
   const scheduler::RunRecord record = render_and_finish(*lead, options, team, scene, arrays.copies, total,
                                                         [&](const auto& plan, const auto& work, const auto& accept) {
+                                                          // Not before the picture has its memory: here all ranks'
+                                                          // clocks start.
+                                                          session.barrier();
                                                           return scheduler::run_master(transport, plan, work, accept);
                                                         });
   scheduler::mpi::dismiss(session, record);

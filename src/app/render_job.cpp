@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "app/tile_list.h"
 #include "io/error.h"
 #include "io/scene_codec.h"
 #include "render/tile.h"
@@ -19,6 +20,7 @@ struct JobHeader {
   std::uint32_t tile_width;
   std::uint32_t tile_height;
   std::uint32_t prefetch;  ///< 0: none given
+  std::uint32_t cut;       ///< tiles that follow
   render::PixelFormat format;
   render::Kernel kernel;
   scheduler::Policy policy;
@@ -26,7 +28,6 @@ struct JobHeader {
   render::Tracer tracer;
   Layers layers;
   bool ask_back;
-  std::uint32_t unused;
   double lease_s;
 };
 static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 48);
@@ -34,14 +35,25 @@ static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 48
 }  // namespace
 
 scheduler::Bytes encode_job(const RenderJob& job) {
-  const JobHeader header{job.area,   job.tile_width, job.tile_height, job.prefetch.value_or(0),
-                         job.format, job.kernel,     job.policy,      job.master,
-                         job.tracer, job.layers,     job.ask_back,    {},
+  const JobHeader header{job.area,
+                         job.tile_width,
+                         job.tile_height,
+                         job.prefetch.value_or(0),
+                         static_cast<std::uint32_t>(job.cut.size()),
+                         job.format,
+                         job.kernel,
+                         job.policy,
+                         job.master,
+                         job.tracer,
+                         job.layers,
+                         job.ask_back,
                          job.lease_s};
   const auto scene = io::encode_scene(job.scene);
-  scheduler::Bytes bytes(sizeof header + scene.size());
+  const scheduler::Bytes tiles = encode_tiles(job.cut);
+  scheduler::Bytes bytes(sizeof header + tiles.size() + scene.size());
   std::memcpy(bytes.data(), &header, sizeof header);
-  std::memcpy(bytes.data() + sizeof header, scene.data(), scene.size());
+  std::copy(tiles.begin(), tiles.end(), bytes.begin() + sizeof header);
+  std::copy(scene.begin(), scene.end(), bytes.end() - static_cast<std::ptrdiff_t>(scene.size()));
   return bytes;
 }
 
@@ -49,9 +61,14 @@ RenderJob decode_job(std::span<const std::byte> bytes) {
   JobHeader header;
   if (bytes.size() < sizeof header) throw io::Error(io::ErrorKind::bad_scene, "the job from rank 0 is cut off");
   std::memcpy(&header, bytes.data(), sizeof header);
+  bytes = bytes.subspan(sizeof header);
+  if (bytes.size() < encoded_size(header.cut)) {
+    throw io::Error(io::ErrorKind::bad_scene, "the tiles from rank 0 are cut off");
+  }
   RenderJob job;
-  job.scene = io::decode_scene(bytes.subspan(sizeof header));
   job.area = header.area;
+  if (header.cut > 0) job.cut = decode_tiles(bytes.first(encoded_size(header.cut)), job.area);
+  job.scene = io::decode_scene(bytes.subspan(encoded_size(header.cut)));
   job.format = header.format;
   job.kernel = header.kernel;
   job.tracer = header.tracer;
@@ -73,13 +90,22 @@ std::vector<render::Rect> tiles_of(const RenderJob& job, std::uint32_t ranks) {
     case scheduler::Policy::cyclic_rows:
       return render::tile_grid(job.area, job.area.width, 1);
     default:
-      return render::tile_grid(job.area, job.tile_width, job.tile_height);
+      break;
   }
+  if (job.cut.empty()) return render::tile_grid(job.area, job.tile_width, job.tile_height);
+  std::vector<render::Rect> tiles;
+  tiles.reserve(job.cut.size());
+  for (const render::CostedTile& tile : job.cut) tiles.push_back(tile.rect);
+  return tiles;
 }
 
 scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tiles) {
-  return {job.policy, static_cast<std::uint32_t>(tiles.size()), {}, job.master, job.prefetch, job.ask_back,
-          job.lease_s};
+  scheduler::Plan plan{job.policy, static_cast<std::uint32_t>(tiles.size()), {}, job.master, job.prefetch, job.ask_back,
+                       job.lease_s};
+  if (has_owners(job.policy)) return plan;
+  plan.costs.reserve(job.cut.size());
+  for (const render::CostedTile& tile : job.cut) plan.costs.push_back(tile.cost);
+  return plan;
 }
 
 TileWork::TileWork(const render::Scene& scene, const RenderJob& job, std::span<const render::Rect> tiles,

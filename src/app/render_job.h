@@ -11,6 +11,7 @@
 #include "app/tile_codec.h"
 #include "render/scene.h"
 #include "render/signature_image.h"
+#include "render/tile.h"
 #include "render/tile_renderer.h"
 #include "scheduler/plan.h"
 #include "scheduler/work.h"
@@ -28,6 +29,7 @@ struct RenderJob {
   Layers layers;
   std::uint32_t tile_width = 16;
   std::uint32_t tile_height = 16;
+  std::vector<render::CostedTile> cut;  ///< where it is not empty, the tiles, instead of those of the size; in seconds
   scheduler::Policy policy = scheduler::Policy::dynamic;
   scheduler::MasterRole master = scheduler::MasterRole::automatic;
   std::optional<unsigned> prefetch;
@@ -39,7 +41,8 @@ scheduler::Bytes encode_job(const RenderJob& job);
 /// throws:  io::Error where the bytes are no job
 RenderJob decode_job(std::span<const std::byte> bytes);
 
-/// The tiles of a job on `ranks` ranks: P bands for static-bands, rows for cyclic-rows, else a grid of the tile size.
+/// The tiles of a job on `ranks` ranks: P bands for static-bands, rows for cyclic-rows, else what it says itself or a
+/// grid of the tile size.
 std::vector<render::Rect> tiles_of(const RenderJob& job, std::uint32_t ranks);
 
 /// How the job's tiles are to be shared out.

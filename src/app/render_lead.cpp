@@ -5,23 +5,34 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/cost_map.h"
+#include "app/cut_to_cost.h"
 #include "app/exit_code.h"
 #include "app/framing.h"
 #include "app/report.h"
 #include "app/shared_names.h"
+#include "app/tile_size.h"
 #include "app/version.h"
 #include "io/error.h"
 #include "io/image_file.h"
 #include "io/pfm.h"
 #include "io/scene_reader.h"
 #include "io/signature_file.h"
+#include "io/tile_times.h"
 #include "render/check.h"
 #include "render/scale.h"
+#include "scheduler/grain.h"
 
 namespace tessera::app {
 namespace {
 
 constexpr std::uint64_t kMaxTiles = 100'000'000;
+
+/// Below that, handing tiles out takes rank 0 longer than bands lose by being unequal.
+constexpr double kLeastWorkRatio = 3;
+
+/// A sample in quad precision takes as long as so many.
+constexpr double kReferenceSamples = 1e4;
 
 const io::PngText kText{{"Software", "Tessera"}};
 
@@ -108,21 +119,53 @@ void RenderLead::plan_schedule() {
   job_.kernel = options_.kernel;
   job_.tracer = options_.tracer;
   job_.layers = {options_.signature.has_value(), options_.error.has_value()};
-  job_.tile_width = options_.tile.width;
-  job_.tile_height = options_.tile.height;
   job_.policy = options_.policy;
   job_.master = options_.master;
   job_.prefetch = options_.prefetch;
   job_.ask_back = options_.ask_back;
   job_.lease_s = options_.lease_s;
+  const double samples = job_.scene.image.samples * (job_.tracer == render::Tracer::reference ? kReferenceSamples : 1);
+  const Size size = options_.tile.value_or(tile_size_without_costs(job_.area, samples));
+  job_.tile_width = size.width;
+  job_.tile_height = size.height;
   if (tiles_along(job_.area.width, job_.tile_width) * tiles_along(job_.area.height, job_.tile_height) > kMaxTiles) {
     throw UsageError("--tile-size cuts the picture into more than 100 million tiles, use larger ones");
   }
+  if (options_.costs) {
+    plan_by_costs();
+  } else if (!options_.tile && bands_will_do(job_.area, samples, team_.ranks)) {
+    fall_back_to_bands();
+  }
+  const scheduler::Plan plan = plan_of(job_, tiles_of(job_, team_.ranks));
   try {
-    require_feasible(plan_of(job_, tiles_of(job_, team_.ranks)), team_.ranks);
+    require_feasible(plan, team_.ranks);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+  job_.master = settled_role(plan, team_.ranks);
+}
+
+void RenderLead::plan_by_costs() {
+  if (has_owners(job_.policy)) {
+    throw UsageError("--costs does not go with --schedule " + std::string(name_of(job_.policy)) +
+                     " (which rank renders what does not depend on it)");
+  }
+  const render::ImageSettings& image = job_.scene.image;
+  const CostMap costs(io::read_tile_times(*options_.costs), job_.area, {0, 0, image.width, image.height},
+                      options_.costs->string());
+  if (options_.tile) {
+    for (const render::Rect& tile : tiles_of(job_, team_.ranks)) job_.cut.push_back({tile, costs.seconds(tile)});
+  } else if (scheduler::work_ratio(costs.seconds(), team_.ranks) < kLeastWorkRatio) {
+    fall_back_to_bands();
+  } else {
+    const auto seconds_of = [&](const render::Rect& rect) { return costs.seconds(rect); };
+    job_.cut = cut_to_cost(job_.area, seconds_of, team_.ranks);
+  }
+}
+
+void RenderLead::fall_back_to_bands() {
+  const bool can = job_.policy == scheduler::Policy::dynamic && job_.master != scheduler::MasterRole::dedicated;
+  if (can) job_.policy = scheduler::Policy::static_bands;
 }
 
 void RenderLead::open_outputs() {

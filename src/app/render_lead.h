@@ -48,6 +48,10 @@ class RenderLead {
  private:
   void read_scene();
   void plan_schedule();
+  /// Cuts the picture to what its parts are predicted to cost, or predicts what tiles of a given size cost.
+  void plan_by_costs();
+  /// Where nobody asked for another way.
+  void fall_back_to_bands();
   void open_outputs();
   void pack_rows(const Mosaic& mosaic);
 

@@ -83,9 +83,12 @@ void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::s
   const render::SceneData& scene = job.scene;
   stats.image = {job.area.width, job.area.height, scene.image.samples, scene.image.max_bounces};
   stats.mpi = {team.ranks, team.nodes, team.library};
-  stats.schedule = {
-      std::string(name_of(job.policy)), tiles[0].width, tiles[0].height, tiles.size(), job.prefetch.value_or(0),
-      std::string(name_of(job.master))};
+  stats.schedule = {std::string(name_of(job.policy)), 0, 0, tiles.size(), job.prefetch.value_or(0),
+                    std::string(name_of(job.master))};
+  for (const render::Rect& tile : tiles) {
+    stats.schedule.tile_width = std::max(stats.schedule.tile_width, tile.width);
+    stats.schedule.tile_height = std::max(stats.schedule.tile_height, tile.height);
+  }
 
   for (const scheduler::RankRecord& rank : run.ranks) {
     stats.ranks.push_back({rank.rank, rank.host, rank.tasks, 0, 0, rank.busy_s, rank.wait_s});
@@ -124,10 +127,10 @@ void print_report(const io::Stats& stats, const RenderOptions& options) {
   std::fprintf(stderr, "%s: %ux%u, %u sample%s a pixel, %" PRIu64 " rays\n", options.output.c_str(), stats.image.width,
                stats.image.height, stats.image.samples, stats.image.samples == 1 ? "" : "s",
                stats.rays.primary + stats.rays.shadow + stats.rays.mirror);
-  std::fprintf(stderr, "%s, %" PRIu64 " tile%s of %ux%u, %u rank%s on %u node%s\n", stats.schedule.policy.c_str(),
-               stats.schedule.tiles, stats.schedule.tiles == 1 ? "" : "s", stats.schedule.tile_width,
-               stats.schedule.tile_height, stats.mpi.size, stats.mpi.size == 1 ? "" : "s", stats.mpi.nodes,
-               stats.mpi.nodes == 1 ? "" : "s");
+  std::fprintf(stderr, "%s, %" PRIu64 " tile%s of %s%ux%u, %u rank%s on %u node%s\n", stats.schedule.policy.c_str(),
+               stats.schedule.tiles, stats.schedule.tiles == 1 ? "" : "s",
+               options.costs && !options.tile ? "up to " : "", stats.schedule.tile_width, stats.schedule.tile_height,
+               stats.mpi.size, stats.mpi.size == 1 ? "" : "s", stats.mpi.nodes, stats.mpi.nodes == 1 ? "" : "s");
   print_ranks(stats, options.verbose);
   std::fprintf(stderr,
                "load balance: efficiency %.1f %%, imbalance %.1f %%, tail %s, makespan %s (Graham's bound %s)\n",

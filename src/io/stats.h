@@ -34,7 +34,7 @@ struct Stats {
   };
   struct Schedule {
     std::string policy;
-    std::uint32_t tile_width = 0;
+    std::uint32_t tile_width = 0;  ///< of the widest tile, as tile_height is of the highest
     std::uint32_t tile_height = 0;
     std::uint64_t tiles = 0;
     std::uint32_t prefetch = 0;  ///< tiles that a worker holds, 0: as the policy finds right

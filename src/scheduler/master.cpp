@@ -16,7 +16,7 @@ constexpr std::uint32_t kMostBroken = 3;
 
 // Work that a rank has begun before the question reaches it cannot be given back: a worker looks at its mail between
 // slices of 0.1 ms.
-constexpr double kWorthAskingSeconds = 2e-4;
+constexpr double kWorthAskingSeconds = 1e-4;
 
 const Plan& checked(const Plan& plan, std::uint32_t ranks) {
   require_feasible(plan, ranks);
@@ -31,17 +31,18 @@ RunList take_first(const Plan& plan, std::uint32_t ranks, Rank rank, TaskQueue& 
   Standing standing;
   standing.rank = rank;
   standing.ranks = ranks;
-  standing.remaining = queue.remaining(rank);
+  standing.backlog = queue.backlog(rank);
   standing.prefetch = plan.prefetch;
-  return queue.take(rank, tasks_to_assign(plan.policy, standing));
+  return queue.take(rank, share_to_assign(plan.policy, standing));
 }
 
 }  // namespace
 
-RunList first_tasks(const Plan& plan, std::uint32_t ranks, Rank worker) {
+std::vector<RunList> first_tasks(const Plan& plan, std::uint32_t ranks) {
   TaskQueue queue(plan, ranks);
-  for (Rank rank = 1; rank < worker; ++rank) take_first(plan, ranks, rank, queue);
-  return take_first(plan, ranks, worker, queue);
+  std::vector<RunList> first(ranks);
+  for (Rank rank = 1; rank < ranks; ++rank) first[rank] = take_first(plan, ranks, rank, queue);
+  return first;
 }
 
 Master::Master(const Plan& plan, std::uint32_t ranks)
@@ -106,6 +107,7 @@ Verdict Master::on(const Result& result, std::vector<Action>& out) {
   if (delivery == Delivery::not_held) {
     return ledger_.is_done(result.task) ? Verdict::duplicate : Verdict::unassigned;
   }
+  seat.way_s = std::min(seat.way_s, std::max(0.0, now_s_ - result.start_s - result.busy_s));
   ++seat.delivered;
   seat.mean_task_s += (result.busy_s - seat.mean_task_s) / std::min(seat.delivered, kRecentTasks);
 
@@ -241,12 +243,13 @@ RunList Master::take(Rank rank) {
   const Standing standing{
       .rank = rank,
       .ranks = static_cast<std::uint32_t>(seats_.size()),
-      .remaining = queue_.remaining(rank),
+      .backlog = queue_.backlog(rank),
       .held = held_by(rank),
+      .round_trip_s = seat.delivered > 0 ? std::optional(2 * seat.way_s) : std::nullopt,
       .mean_task_s = seat.delivered > 0 ? std::optional(seat.mean_task_s) : std::nullopt,
       .prefetch = plan_.prefetch,
   };
-  return queue_.take(rank, tasks_to_assign(plan_.policy, standing));
+  return queue_.take(rank, share_to_assign(plan_.policy, standing));
 }
 
 void Master::refill(Rank rank, std::vector<Action>& out) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <variant>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct LeaveSeat {};
 struct Result {
   Rank rank = 0;
   TaskId task{};
-  double busy_s = 0;  ///< time it took
+  double busy_s = 0;   ///< time it took
+  double start_s = 0;  ///< when it began, on the clock of the rank
 };
 /// A rank gives tasks up that it has not begun, perhaps none: the answer to AskBack.
 struct Returned {
@@ -135,6 +137,9 @@ class Master {
     double heard_s = 0;  ///< when it was last heard of or given something to do
     std::uint32_t delivered = 0;
     double mean_task_s = 0;
+    /// The shortest time from the end of a task to its arrival: the way to rank 0, and the time by which the rank's
+    /// clock was started late.
+    double way_s = std::numeric_limits<double>::infinity();
   };
 
   Verdict on(const Hello& hello, std::vector<Action>& out);
@@ -172,7 +177,8 @@ class Master {
   Faults faults_;
 };
 
-/// What a worker begins with: it follows from the plan, so nobody has to tell it, and no time is lost over the way.
-RunList first_tasks(const Plan& plan, std::uint32_t ranks, Rank worker);
+/// What each worker begins with: it follows from the plan, so nobody has to tell it, and no time is lost over the way.
+/// shapes:  one list per rank; that of rank 0 is empty
+std::vector<RunList> first_tasks(const Plan& plan, std::uint32_t ranks);
 
 }  // namespace tessera::scheduler

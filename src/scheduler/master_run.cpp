@@ -98,7 +98,7 @@ void MasterRun::on(Rank from, const HelloMessage& hello) {
 void MasterRun::on(Rank from, const ResultMessage& result) {
   // The answer goes out first: the worker needs it more urgently than the picture needs the pixels.
   const double busy_s = seconds_from_ns(result.busy_ns);
-  if (tell_master(Result{from, result.task, busy_s}) == Verdict::late) {
+  if (tell_master(Result{from, result.task, busy_s, seconds_from_ns(result.start_ns)}) == Verdict::late) {
     record_.faults.wasted_s += busy_s;
     return;
   }

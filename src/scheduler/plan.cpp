@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "scheduler/grain.h"
 
 namespace tessera::scheduler {
 namespace {
@@ -18,9 +21,8 @@ constexpr std::array<std::pair<MasterRole, std::string_view>, 3> kNames{{
 }};
 
 constexpr std::uint32_t kRanksThatAllRender = 4;
-constexpr double kMasterSecondsPerTask = 3e-6;
 constexpr double kLeastWorkRatio = 100;
-constexpr double kMostDuty = 0.3;
+constexpr double kMostDuty = 0.5;
 
 }  // namespace
 
@@ -61,10 +63,15 @@ bool should_render(const Plan& plan, const Workload& load) noexcept {
   if (plan.role != MasterRole::automatic) return plan.role == MasterRole::rendering;
   if (has_owners(plan.policy) || load.ranks <= kRanksThatAllRender) return true;
   if (!load.mean_task_s) return false;
-  const double ranks = load.ranks;
-  const double work_s = load.tasks * *load.mean_task_s;
-  return work_s > kLeastWorkRatio * ranks * ranks * kMasterSecondsPerTask &&
-         (ranks - 1) * kMasterSecondsPerTask < kMostDuty * *load.mean_task_s;
+  const double duty = (load.ranks - 1) * kMasterSecondsPerTask / *load.mean_task_s;
+  return work_ratio(load.tasks * *load.mean_task_s, load.ranks) > kLeastWorkRatio && duty < kMostDuty;
+}
+
+MasterRole settled_role(const Plan& plan, std::uint32_t ranks) noexcept {
+  if (plan.costs.empty() || plan.role != MasterRole::automatic) return plan.role;
+  const double work_s = std::accumulate(plan.costs.begin(), plan.costs.end(), 0.0);
+  const bool renders = should_render(plan, {ranks, plan.tasks, work_s / plan.tasks});
+  return renders ? MasterRole::rendering : MasterRole::dedicated;
 }
 
 }  // namespace tessera::scheduler

@@ -23,7 +23,7 @@ std::optional<MasterRole> parse_master_role(std::string_view name) noexcept;
 std::string_view name_of(MasterRole role) noexcept;
 
 /// shapes:  costs is empty or holds one value per task
-/// units:   costs: any, the same for all
+/// units:   costs: seconds
 struct Plan {
   Policy policy = Policy::dynamic;
   std::uint32_t tasks = 0;
@@ -49,8 +49,12 @@ struct Workload {
 /// Whether rank 0 should take a task of its own now. In the role `automatic` it does
 ///   - with owned tasks, for nobody else may do its share;
 ///   - on up to 4 ranks, for a rank that does not render costs a quarter of the machine or more;
-///   - beyond, from the first result on, while x = W / (P^2 o) > 100 and its duty (P - 1) o / t < 0.3,
+///   - beyond, from the first result on, while x = W / (P^2 o) > 100 and its duty (P - 1) o / t < 0.5,
 /// with W the work in all tasks, t their mean, P the ranks and o = 3 us rank 0's time per task.
 bool should_render(const Plan& plan, const Workload& load) noexcept;
+
+/// The plan's role or, where that is `automatic` and costs are predicted, what should_render makes of them: then rank 0
+/// need not wait for the first results to know.
+MasterRole settled_role(const Plan& plan, std::uint32_t ranks) noexcept;
 
 }  // namespace tessera::scheduler

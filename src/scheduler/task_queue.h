@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scheduler/plan.h"
+#include "scheduler/policy.h"
 #include "scheduler/task.h"
 
 // The tasks that nobody has yet, in the order in which they are handed out.
@@ -21,8 +22,12 @@ class TaskQueue {
   /// Tasks that `rank` can still get.
   std::uint32_t remaining(Rank rank) const noexcept;
 
-  /// Takes up to `most` tasks for `rank`; fewer where they run out or lie in more runs than a list holds.
-  RunList take(Rank rank, std::uint32_t most);
+  /// The same with what there was at the start, and in predicted seconds where the plan has costs.
+  Backlog backlog(Rank rank) const noexcept;
+
+  /// Takes a share for `rank`, at least a task where it is not empty; less where tasks run out or lie in more runs than
+  /// a list holds.
+  RunList take(Rank rank, const Share& share);
 
   /// Takes a task in again that somebody took and did not do.
   void put_back(TaskId task) { returned_.push_back(task); }
@@ -47,6 +52,7 @@ class TaskQueue {
   std::vector<std::uint32_t> cursors_;  ///< next position, one per owner or one for all
   std::vector<TaskId> order_;           ///< position -> task, empty where they are the same
   std::deque<TaskId> returned_;
+  std::vector<double> left_s_;  ///< position -> predicted work from there to the end, empty without costs
 };
 
 }  // namespace tessera::scheduler

@@ -29,7 +29,7 @@ WorkerRun::WorkerRun(Transport& transport, const Plan& plan, Work work)
       work_(std::move(work), clock_, [this] { look_up_from_task(); }),
       sign_every_s_(plan.lease_s / kSignsPerLease) {
   send(encode(HelloMessage{process_id(), host_name()}));
-  worker_.assign(first_tasks(plan, transport.size(), transport.rank()));
+  worker_.assign(first_tasks(plan, transport.size())[transport.rank()]);
 }
 
 Step WorkerRun::step() {

@@ -6,6 +6,7 @@ import csv
 import json
 import math
 import pathlib
+import random
 import struct
 import subprocess
 
@@ -53,13 +54,71 @@ class CommandLineTest(running_program.ProgramTest):
         self.assertEqual(self.run_tessera("render", self.scene, "-o", "one.png", "-q").returncode, 0)
         reference = (self.folder / "one.png").read_bytes()
         for ranks, schedule, tile in [(1, "dynamic", "8"), (2, "dynamic", "7x5"), (3, "static-bands", "16"),
-                                      (4, "cyclic-rows", "16"), (2, "self", "1"), (4, "guided", "1000")]:
+                                      (4, "cyclic-rows", "16"), (2, "self", "1"), (4, "guided", "1000"),
+                                      (3, "factoring", "4"), (2, "trapezoid", "4"), (4, "dynamic", "auto")]:
             with self.subTest(ranks=ranks, schedule=schedule, tile=tile):
                 run = self.run_tessera("render", self.scene, "-o", "many.png", "--schedule", schedule,
                                        "--tile-size", tile, ranks=ranks)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertEqual((self.folder / "many.png").read_bytes(), reference)
                 self.assertEqual(run.stdout, "")
+
+    def test_costs_of_an_earlier_run_change_the_tiles_and_nothing_else(self):
+        def render(picture, *words, ranks=2):
+            run = self.run_tessera("render", self.scene, "-s", "16", "-o", picture, "--stats", "s.json", *words, ranks=ranks)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            return (self.folder / picture).read_bytes(), json.loads((self.folder / "s.json").read_text())
+
+        reference, _ = render("one.png", "--tile-stats", "costs.csv", "--tile-size", "4", ranks=0)
+        header, *rows = (self.folder / "costs.csv").read_text().splitlines(keepends=True)
+        times = [row.split(",")[6:8] for row in rows]
+        random.Random(1).shuffle(times)
+        self.write("shuffled.csv", header + "".join(
+            ",".join(row.split(",")[:6] + time + row.split(",")[8:]) for row, time in zip(rows, times)))
+        for costs in ("costs.csv", "shuffled.csv"):
+            for words in ([], ["--tile-size", "5"], ["--schedule", "guided"], ["--schedule", "factoring"],
+                          ["--schedule", "trapezoid"], ["--prefetch", "1"]):
+                with self.subTest(costs=costs, words=words):
+                    picture, _ = render("many.png", "--costs", costs, *words, ranks=3)
+                    self.assertEqual(picture, reference)
+        # Enough work, so that tiles follow from it, at another resolution; and a later frame's costs from those tiles.
+        self.write("slow.csv", header + "".join(
+            ",".join(row.split(",")[:6] + ["0", str(1 + int(row.split(",")[1]))] + row.split(",")[8:]) for row in rows))
+        reference, _ = render("large.png", "-r", "160x120")
+        picture, cut = render("cut.png", "-r", "160x120", "--costs", "slow.csv", "--tile-stats", "slow.csv")
+        self.assertEqual(picture, reference)
+        self.assertEqual(cut["schedule"]["policy"], "dynamic")
+        widths = {row.split(",")[3] for row in (self.folder / "slow.csv").read_text().splitlines()[1:]}
+        self.assertGreater(len(widths), 1)
+        self.assertEqual(render("again.png", "-r", "160x120", "--costs", "slow.csv")[0], reference)
+
+    def test_little_work_is_shared_out_in_bands_unless_told_otherwise(self):
+        def policy(*words, ranks):
+            run = self.run_tessera("render", self.scene, "-o", "many.png", "--stats", "s.json", *words, ranks=ranks)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            return json.loads((self.folder / "s.json").read_text())["schedule"]["policy"]
+
+        self.assertEqual(policy(ranks=2), "dynamic")
+        self.assertEqual(policy(ranks=8), "static-bands")
+        self.assertEqual(policy("--tile-size", "8", ranks=8), "dynamic")
+        self.assertEqual(policy("--master", "dedicated", ranks=8), "dynamic")
+        self.assertEqual(policy("--schedule", "self", ranks=8), "self")
+        self.write("fast.csv", "x,y,width,height,start_s,end_s\n0,0,40,30,0,1e-6\n")
+        self.assertEqual(policy("--costs", "fast.csv", ranks=2), "static-bands")
+        self.write("slow.csv", "x,y,width,height,start_s,end_s\n0,0,40,30,0,1\n")
+        self.assertEqual(policy("--costs", "slow.csv", ranks=8), "dynamic")
+
+    def test_costs_that_do_not_fit_are_refused(self):
+        self.assertEqual(self.run_tessera("render", self.scene, "-o", "one.png", "--tile-stats", "costs.csv").returncode, 0)
+        costs = self.folder / "costs.csv"
+        self.assert_refused(BAD_SCENE, "render", self.scene, "--costs", self.scene, says=["small.toml:1:1", "--tile-stats"])
+        self.assert_refused(BAD_SCENE, "render", self.scene, "-r", "64x9", "--costs", costs, says="costs.csv:1:1")
+        self.assert_refused(INPUT_MISSING, "render", self.scene, "--costs", "none.csv", says="none.csv")
+        self.assert_refused(USAGE, "render", self.scene, "--costs", costs, "--schedule", "cyclic-rows",
+                            says="--costs does not go with --schedule cyclic-rows")
+        cut_off = costs.read_text()[:-4]
+        self.assert_refused(BAD_SCENE, "render", self.scene, "--costs", self.write("off.csv", cut_off[:cut_off.rindex(",")]),
+                            says="off.csv:", ranks=(0,))
 
     def test_every_kernel_writes_the_same_file(self):
         planes = self.write("planes.toml", SMALL_SCENE[:SMALL_SCENE.index("[[sphere]]")] +

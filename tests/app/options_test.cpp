@@ -44,8 +44,8 @@ BOOST_AUTO_TEST_CASE(a_render_needs_only_its_input) {
   const RenderOptions options = parse_render({});
   BOOST_TEST(options.input == "scene.toml");
   BOOST_TEST(options.output == "scene.png");
-  BOOST_TEST(options.tile.width == 16u);
-  BOOST_TEST(options.tile.height == 16u);
+  BOOST_TEST(!options.tile.has_value());
+  BOOST_TEST(!options.costs.has_value());
   BOOST_TEST((options.policy == scheduler::Policy::dynamic));
   BOOST_TEST(!options.resolution.has_value());
 }
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(every_render_option_is_understood) {
        "-b",          "0",     "--crop",     "1,2,30,40", "--transfer",   "none",      "--shade",    "blinn",
        "--tile-size", "7x5",   "--schedule", "guided",    "--master",     "dedicated", "--prefetch", "3",
        "--kernel",    "brute", "--stats",    "-",         "--tile-stats", "t.csv",     "--progress", "plain",
-       "-q",          "-v"});
+       "-q",          "-v",    "--costs",    "c.csv"});
   BOOST_TEST(options.output == "a.ppm");
   BOOST_TEST(options.bits == 16u);
   BOOST_TEST(options.resolution->width == 64u);
@@ -71,14 +71,15 @@ BOOST_AUTO_TEST_CASE(every_render_option_is_understood) {
   BOOST_TEST((*options.crop == render::Rect{1, 2, 30, 40}));
   BOOST_TEST((options.transfer == render::Transfer::none));
   BOOST_TEST((options.shade == render::Shade::blinn));
-  BOOST_TEST(options.tile.width == 7u);
-  BOOST_TEST(options.tile.height == 5u);
+  BOOST_TEST(options.tile->width == 7u);
+  BOOST_TEST(options.tile->height == 5u);
   BOOST_TEST((options.policy == scheduler::Policy::guided));
   BOOST_TEST((options.master == scheduler::MasterRole::dedicated));
   BOOST_TEST(options.prefetch.value() == 3u);
   BOOST_TEST((options.kernel == render::Kernel::brute));
   BOOST_TEST(options.stats.value() == "-");
   BOOST_TEST(options.tile_stats.value() == "t.csv");
+  BOOST_TEST(options.costs.value() == "c.csv");
   BOOST_TEST((options.progress == ProgressStyle::plain));
   BOOST_TEST(options.quiet);
   BOOST_TEST(options.verbose);
@@ -86,8 +87,19 @@ BOOST_AUTO_TEST_CASE(every_render_option_is_understood) {
 
 BOOST_AUTO_TEST_CASE(one_number_makes_square_tiles) {
   const RenderOptions options = parse_render({"--tile-size", "32"});
-  BOOST_TEST(options.tile.width == 32u);
-  BOOST_TEST(options.tile.height == 32u);
+  BOOST_TEST(options.tile->width == 32u);
+  BOOST_TEST(options.tile->height == 32u);
+}
+
+BOOST_AUTO_TEST_CASE(every_schedule_has_its_name) {
+  for (const char* name : {"dynamic", "static-bands", "cyclic-rows", "self", "guided", "factoring", "trapezoid"}) {
+    BOOST_TEST(name_of(parse_render({"--schedule", name}).policy) == name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(auto_is_a_tile_size) {
+  BOOST_TEST(!parse_render({"--tile-size", "auto"}).tile.has_value());
+  BOOST_TEST(contains(complaint({"render", "s.toml", "--tile-size", "Auto"}), "--tile-size"));
 }
 
 BOOST_AUTO_TEST_CASE(a_size_must_be_whole_positive_numbers) {

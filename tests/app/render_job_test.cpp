@@ -44,8 +44,26 @@ BOOST_AUTO_TEST_CASE(a_job_survives_the_way_to_another_rank) {
   BOOST_TEST((encode_job(copy) == encode_job(job)));
 }
 
+BOOST_AUTO_TEST_CASE(tiles_of_no_size_travel_with_the_job) {
+  RenderJob job = test::small_job();
+  job.cut = test::uneven_tiles(job.area);
+  const RenderJob copy = decode_job(encode_job(job));
+  BOOST_TEST((tiles_of(copy, 3) == tiles_of(job, 3)));
+  BOOST_TEST(tiles_of(job, 3).size() == job.cut.size());
+  BOOST_TEST((tiles_of(job, 3)[1] == job.cut[1].rect));
+  const scheduler::Plan plan = plan_of(copy, tiles_of(copy, 3));
+  BOOST_TEST(plan.costs.size() == job.cut.size());
+  BOOST_TEST(plan.costs[0] == static_cast<float>(job.cut[0].cost));
+  BOOST_TEST((encode_job(copy) == encode_job(job)));
+  job.policy = scheduler::Policy::static_bands;
+  BOOST_TEST(tiles_of(job, 3).size() == 3u);
+  BOOST_TEST(plan_of(job, tiles_of(job, 3)).costs.empty());
+}
+
 BOOST_AUTO_TEST_CASE(a_job_cut_off_anywhere_is_refused) {
-  const scheduler::Bytes bytes = encode_job(test::small_job());
+  RenderJob job = test::small_job();
+  job.cut = test::uneven_tiles(job.area);
+  const scheduler::Bytes bytes = encode_job(job);
   for (std::size_t size = 0; size < bytes.size(); size += size < 100 ? 1 : 97) {
     BOOST_CHECK_THROW(decode_job(std::span(bytes).first(size)), io::Error);
   }

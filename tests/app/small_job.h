@@ -9,6 +9,7 @@
 #include "io/image_file.h"
 #include "io/pfm.h"
 #include "io/signature_file.h"
+#include "render/tile.h"
 
 // A small render that has everything a picture can depend on: mirrors, shadows, overlapping spheres, a checkered
 // floor, point and directional light, several samples. Its picture is what every schedule must reproduce.
@@ -46,32 +47,41 @@ inline RenderJob small_job() {
   return job;
 }
 
+/// Tiles that shrink as if they had been cut by cost, the dearest first.
+inline std::vector<render::CostedTile> uneven_tiles(const render::Rect& area) {
+  const auto cost_of = [](const render::Rect& rect) { return 1e-6 * static_cast<double>(rect.pixels()); };
+  return render::cut_by_cost(area, 32, cost_of, [](double left) { return left / 6; });
+}
+
 /// How a picture may be cut and shared out.
 struct Sharing {
   scheduler::Policy policy;
-  std::uint32_t tile_width;
+  std::uint32_t tile_width;  ///< 0: uneven tiles
   std::uint32_t tile_height;
 
   void apply_to(RenderJob& job) const {
     job.policy = policy;
     job.tile_width = tile_width;
     job.tile_height = tile_height;
+    job.cut = tile_width > 0 ? std::vector<render::CostedTile>() : uneven_tiles(job.area);
   }
   std::string text() const {
     return std::string(name_of(policy)) + " " + std::to_string(tile_width) + "x" + std::to_string(tile_height);
   }
 };
 
-/// Every policy with tiles of 1x1, 7x5, 16, 64 and the whole picture.
+/// Every policy with tiles of 1x1, 7x5, 16, 64, the whole picture, and uneven ones.
 inline std::vector<Sharing> all_sharings(const RenderJob& job) {
   using scheduler::Policy;
   std::vector<Sharing> sharings{{Policy::static_bands, 16, 16}, {Policy::cyclic_rows, 16, 16}};
-  for (const Policy policy : {Policy::dynamic, Policy::self_scheduling, Policy::guided}) {
+  for (const Policy policy :
+       {Policy::dynamic, Policy::self_scheduling, Policy::guided, Policy::factoring, Policy::trapezoid}) {
     sharings.push_back({policy, 1, 1});
     sharings.push_back({policy, 7, 5});
     sharings.push_back({policy, 16, 16});
     sharings.push_back({policy, 64, 64});
     sharings.push_back({policy, job.area.width, job.area.height});
+    sharings.push_back({policy, 0, 0});
   }
   return sharings;
 }

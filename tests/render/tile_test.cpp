@@ -87,4 +87,54 @@ BOOST_AUTO_TEST_CASE(bands_are_whole_rows_that_differ_by_at_most_one) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_cut_by_cost_covers_every_pixel_once) {
+  for (const Rect& area : {Rect{0, 0, 64, 64}, Rect{3, 5, 77, 41}, Rect{9, 0, 1, 300}, Rect{0, 0, 5, 5}}) {
+    for (const double most : {0.0, 1.0, 50.0, 1e9}) {
+      const auto tiles = cut_by_cost(
+          area, 128, [](const Rect& rect) { return double(rect.pixels()); }, [&](double) { return most; });
+      std::vector<Rect> rects;
+      for (const CostedTile& tile : tiles) rects.push_back(tile.rect);
+      BOOST_TEST(covers_once(area, rects));
+    }
+  }
+}
+
+// All of the cost lies in the first 8x8 block. With half of what is left as the most: 64x64 costs 64 > 32, so do its
+// left half ... down to that block, which cannot be halved.
+BOOST_AUTO_TEST_CASE(only_what_is_dear_is_cut) {
+  const auto cost_of = [](const Rect& rect) { return rect.x == 0 && rect.y == 0 ? 64.0 : 0.0; };
+  const auto tiles = cut_by_cost({0, 0, 64, 64}, 64, cost_of, [](double left) { return left / 2; });
+  BOOST_TEST_REQUIRE(tiles.size() == 7u);
+  BOOST_TEST((tiles[0].rect == Rect{0, 0, 8, 8}));
+  // What costs nothing follows in reading order.
+  BOOST_TEST((tiles[1].rect == Rect{8, 0, 8, 8}));
+  BOOST_TEST((tiles[2].rect == Rect{16, 0, 16, 16}));
+  BOOST_TEST((tiles[6].rect == Rect{0, 32, 64, 32}));
+}
+
+BOOST_AUTO_TEST_CASE(no_tile_is_dearer_than_allowed_and_none_follows_a_cheaper_one) {
+  const Rect area{0, 0, 200, 120};
+  // A pixel costs more to the right.
+  const auto cost_of = [](const Rect& rect) { return double(rect.pixels()) * (2 * rect.x + rect.width); };
+  const auto tiles = cut_by_cost(area, 1024, cost_of, [](double left) { return std::max(left / 8, 5e4); });
+  double left = cost_of(area);
+  for (std::size_t i = 0; i != tiles.size(); ++i) {
+    const Rect& rect = tiles[i].rect;
+    BOOST_TEST(tiles[i].cost == cost_of(rect));
+    if (i > 0) BOOST_TEST(tiles[i].cost <= tiles[i - 1].cost);
+    BOOST_TEST(tiles[i].cost <= std::max(left / 8, 5e4));
+    left -= tiles[i].cost;
+  }
+  BOOST_TEST(std::abs(left) < 1e-6);
+  BOOST_TEST(tiles.front().rect.pixels() > 4 * tiles.back().rect.pixels());
+}
+
+BOOST_AUTO_TEST_CASE(a_cut_begins_with_squares_of_the_longest_side) {
+  const auto tiles = cut_by_cost(
+      {0, 0, 100, 30}, 20, [](const Rect&) { return 1.0; }, [](double) { return 1.0; });
+  BOOST_TEST_REQUIRE(tiles.size() == 4u);
+  BOOST_TEST((tiles[0].rect == Rect{0, 0, 32, 30}));
+  BOOST_TEST((tiles[3].rect == Rect{96, 0, 4, 30}));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

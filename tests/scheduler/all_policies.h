@@ -6,7 +6,8 @@
 // For test cases that hold for each policy.
 namespace tessera::scheduler {
 
-inline constexpr Policy kAllPolicies[] = {Policy::dynamic, Policy::static_bands, Policy::cyclic_rows,
-                                          Policy::self_scheduling, Policy::guided};
+inline constexpr Policy kAllPolicies[] = {Policy::dynamic,         Policy::static_bands, Policy::cyclic_rows,
+                                          Policy::self_scheduling, Policy::guided,       Policy::factoring,
+                                          Policy::trapezoid};
 
 }  // namespace tessera::scheduler

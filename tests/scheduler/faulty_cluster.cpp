@@ -2,7 +2,10 @@
 #include "scheduler/faulty_cluster.h"
 
 #include <cmath>
+#include <iterator>
 #include <utility>
+
+#include "scheduler/all_policies.h"
 
 namespace tessera::scheduler {
 namespace {
@@ -30,7 +33,7 @@ FaultyCluster::FaultyCluster(std::uint64_t seed, const Mishaps& mishaps)
 
 Plan FaultyCluster::random_plan() {
   Plan plan;
-  plan.policy = static_cast<Policy>(below(5));
+  plan.policy = kAllPolicies[below(std::size(kAllPolicies))];
   plan.tasks = below(8) == 0 ? below(3) : below(60);
   if (below(3) == 0) plan.prefetch = 1 + below(20);
   if (below(3) == 0) {
@@ -76,7 +79,7 @@ void FaultyCluster::begin() {
     if (chance(mishaps_.stalls)) {
       schedule(unit() * kLongestLife * unit(), rank, Stall{unit() * mishaps_.longest_stall});
     }
-    for (const TaskRun& run : first_tasks(plan_, ranks_, rank)) {
+    for (const TaskRun& run : first_tasks(plan_, ranks_)[rank]) {
       for (std::uint32_t i = 0; i < run.count; ++i) member.queue.push_back(index_of(run.first) + i);
     }
     send_to_master(rank, {Hello{rank}});

@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(one_rank_is_over_with_its_last_task) {
 }
 
 BOOST_AUTO_TEST_CASE(a_goodbye_that_nobody_asked_for_is_none) {
-  Dialogue dialogue(Policy::dynamic, 10, 3);
+  Dialogue dialogue(Policy::dynamic, 30, 3);
   BOOST_TEST((dialogue.say(Bye{1}) == Verdict::unassigned));
   BOOST_TEST((dialogue.say(Result{1, TaskId{0}, 1}) == Verdict::accepted));
   BOOST_TEST(!dialogue.actions.empty());  // it is still there

@@ -22,7 +22,7 @@ MasterModel::MasterModel(const Plan& plan, std::uint32_t ranks) : plan_(plan), m
   for (std::uint32_t task = 0; task < plan.tasks; ++task) ++untouched_[task % untouched_.size()];
   for (Rank rank = 1; rank < ranks; ++rank) members_[rank].where = Where::present;
   for (Rank rank = 1; rank < ranks; ++rank) {
-    for_each_task(first_tasks(plan, ranks, rank), [&](std::uint32_t task) { hand_out(task, rank); });
+    for_each_task(first_tasks(plan, ranks)[rank], [&](std::uint32_t task) { hand_out(task, rank); });
   }
 }
 
@@ -235,9 +235,16 @@ bool MasterModel::could_have_work(Rank rank) const {
 
 std::uint32_t MasterModel::limit(Rank rank) const {
   if (rank == kMasterRank) return 1;
-  const auto ranks = static_cast<std::uint32_t>(members_.size());
-  if (plan_.policy == Policy::guided) return plan_.prefetch.value_or(1) - 1 + (plan_.tasks + ranks - 1) / ranks;
+  if (is_chunked(plan_.policy)) return plan_.prefetch.value_or(1) - 1 + longest_chunk();
   return plan_.prefetch.value_or(plan_.policy == Policy::self_scheduling ? 1 : 16);
+}
+
+// Chunks of predicted work may hold any number of tasks.
+std::uint32_t MasterModel::longest_chunk() const {
+  if (!plan_.costs.empty()) return plan_.tasks;
+  const auto ranks = static_cast<std::uint32_t>(members_.size());
+  const std::uint32_t parts = plan_.policy == Policy::guided ? ranks : 2 * ranks;
+  return (plan_.tasks + parts - 1) / parts;
 }
 
 void MasterModel::hand_out(std::uint32_t task, Rank rank) {

@@ -76,6 +76,7 @@ class MasterModel {
   bool is_done() const noexcept { return accepted_ == tasks_.size(); }
   bool could_have_work(Rank rank) const;
   std::uint32_t limit(Rank rank) const;
+  std::uint32_t longest_chunk() const;
   void hand_out(std::uint32_t task, Rank rank);
   void hear(Rank rank);
   void fall_silent(Rank rank);

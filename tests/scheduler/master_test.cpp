@@ -23,8 +23,8 @@ BOOST_AUTO_TEST_SUITE(master)
 
 BOOST_AUTO_TEST_CASE(workers_have_their_first_tasks_without_a_word) {
   const Dialogue dialogue(Policy::dynamic, 10, 3);
-  BOOST_TEST((first_tasks(plan_of(Policy::dynamic, 10), 3, 1) == one_run(0, 2)));
-  BOOST_TEST((first_tasks(plan_of(Policy::dynamic, 10), 3, 2) == one_run(2, 2)));
+  BOOST_TEST((first_tasks(plan_of(Policy::dynamic, 10), 3)[1] == one_run(0, 2)));
+  BOOST_TEST((first_tasks(plan_of(Policy::dynamic, 10), 3)[2] == one_run(2, 2)));
   BOOST_TEST(dialogue.master.held_by(0) == 0U);
   BOOST_TEST(dialogue.master.held_by(1) == 2U);
   BOOST_TEST(dialogue.master.held_by(2) == 2U);
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(what_a_worker_begins_with_is_what_the_master_counts_on) {
         Dialogue dialogue(plan, ranks);
         std::vector<int> times(tasks, 0);
         for (Rank rank = 1; rank < ranks; ++rank) {
-          const RunList first = first_tasks(plan, ranks, rank);
+          const RunList first = first_tasks(plan, ranks)[rank];
           BOOST_TEST(dialogue.master.held_by(rank) == first.tasks());
           for (const TaskRun& run : first) {
             for (std::uint32_t i = 0; i < run.count; ++i) {
@@ -62,8 +62,22 @@ BOOST_AUTO_TEST_CASE(a_hello_is_taken_down_once) {
   BOOST_TEST(dialogue.actions.empty());
 }
 
+BOOST_AUTO_TEST_CASE(a_rank_whose_results_are_long_on_the_way_holds_more) {
+  Dialogue near(Policy::dynamic, 1000, 2);
+  near.now_s = 5e-3;
+  near.say(Result{.rank = 1, .task = TaskId{0}, .busy_s = 5e-3, .start_s = 0});
+  BOOST_TEST(near.assigned_to(1).tasks() == 1U);
+  near.now_s = 40e-3;  // one that was late says nothing of the way
+  near.say(Result{.rank = 1, .task = TaskId{1}, .busy_s = 5e-3, .start_s = 5e-3});
+  BOOST_TEST(near.assigned_to(1).tasks() == 1U);
+  Dialogue far(Policy::dynamic, 1000, 2);
+  far.now_s = 10e-3;
+  far.say(Result{.rank = 1, .task = TaskId{0}, .busy_s = 5e-3, .start_s = 0});
+  BOOST_TEST(far.assigned_to(1).tasks() == 4U);
+}
+
 BOOST_AUTO_TEST_CASE(a_result_is_answered_with_more_work) {
-  Dialogue dialogue(Policy::dynamic, 10, 3);
+  Dialogue dialogue(Policy::dynamic, 20, 3);
   BOOST_TEST((dialogue.say(Result{1, TaskId{1}, 1.0}) == Verdict::accepted));
   BOOST_TEST((dialogue.assigned_to(1) == one_run(4, 1)));
   BOOST_TEST(dialogue.master.accepted() == 1U);

@@ -88,11 +88,23 @@ BOOST_AUTO_TEST_CASE(up_to_four_ranks_rank_0_renders_whatever_the_tasks) {
 BOOST_AUTO_TEST_CASE(on_more_ranks_rank_0_renders_once_it_knows_that_there_is_work_enough) {
   const Plan automatic = plan_of(Policy::dynamic, MasterRole::automatic);
   BOOST_TEST(!should_render(automatic, {.ranks = 16, .tasks = 100000, .mean_task_s = {}}));
-  // P = 16: x = 100 is W = 0.0768 s, a duty of 0.3 is t = 150 us.
+  // P = 16: x = 100 is W = 0.0768 s, a duty of 0.5 is t = 90 us.
   BOOST_TEST(should_render(automatic, {.ranks = 16, .tasks = 385, .mean_task_s = 200e-6}));
   BOOST_TEST(!should_render(automatic, {.ranks = 16, .tasks = 383, .mean_task_s = 200e-6}));
-  BOOST_TEST(should_render(automatic, {.ranks = 16, .tasks = 100000, .mean_task_s = 151e-6}));
-  BOOST_TEST(!should_render(automatic, {.ranks = 16, .tasks = 100000, .mean_task_s = 149e-6}));
+  BOOST_TEST(should_render(automatic, {.ranks = 16, .tasks = 100000, .mean_task_s = 91e-6}));
+  BOOST_TEST(!should_render(automatic, {.ranks = 16, .tasks = 100000, .mean_task_s = 89e-6}));
+}
+
+BOOST_AUTO_TEST_CASE(predicted_costs_settle_the_role_at_the_start) {
+  Plan plan = plan_of(Policy::dynamic, MasterRole::automatic);
+  plan.tasks = 400;
+  BOOST_TEST((settled_role(plan, 16) == MasterRole::automatic));
+  plan.costs.assign(400, 200e-6);
+  BOOST_TEST((settled_role(plan, 16) == MasterRole::rendering));
+  BOOST_TEST((settled_role(plan, 17) == MasterRole::dedicated));  // x = 92
+  BOOST_TEST((settled_role(plan, 2) == MasterRole::rendering));
+  plan.role = MasterRole::dedicated;
+  BOOST_TEST((settled_role(plan, 16) == MasterRole::dedicated));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

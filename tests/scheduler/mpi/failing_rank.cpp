@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scheduler/mpi/farewell.h"
 #include "scheduler/mpi/session.h"
 #include "scheduler/mpi/transport.h"
 #include "scheduler/run.h"
@@ -33,12 +34,16 @@ void take_part(mpi::Session& session, Failure failure) {
   plan.role = MasterRole::rendering;
   plan.lease_s = 0.5;
   session.barrier();
-  if (session.rank() != kMasterRank) return run_worker(transport, plan, work);
+  if (session.rank() != kMasterRank) {
+    run_worker(transport, plan, work);
+    return mpi::await_dismissal(session);
+  }
   std::vector<int> times(plan.tasks, 0);
-  run_master(transport, plan, work, [&](TaskId task, auto) { ++times[index_of(task)]; });
+  const RunRecord run = run_master(transport, plan, work, [&](TaskId task, auto) { ++times[index_of(task)]; });
   for (const int count : times) {
     if (count != 1) session.abort(1);
   }
+  mpi::dismiss(session, run);
 }
 
 }  // namespace
