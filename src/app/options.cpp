@@ -208,6 +208,12 @@ void add_report_options(CLI::App& app, RenderOptions& options) {
   const auto group = app.add_option_group("Report", "\"-\" as FILE is standard output");
   group->add_option("--stats", options.stats, "write times, rays and load balance as JSON")->type_name("FILE");
   group->add_option("--tile-stats", options.tile_stats, "write each tile's rank and times as CSV")->type_name("FILE");
+  group->add_option("--trace", options.trace, "write who did what when, for ui.perfetto.dev or chrome://tracing")
+      ->type_name("FILE");
+  group->add_option("--cost-map", options.cost_map, "paint each tile by its seconds per pixel: .png")
+      ->type_name("FILE");
+  group->add_option("--owner-map", options.owner_map, "paint each tile in the color of its rank: .png")
+      ->type_name("FILE");
   add_choice<ProgressStyle>(*group, "--progress",
                             {{"auto", ProgressStyle::automatic},
                              {"bar", ProgressStyle::bar},

@@ -50,6 +50,9 @@ struct RenderOptions {
   std::optional<std::filesystem::path> error;
   std::optional<std::filesystem::path> stats;       ///< "-" is stdout
   std::optional<std::filesystem::path> tile_stats;  ///< "-" is stdout
+  std::optional<std::filesystem::path> trace;       ///< "-" is stdout
+  std::optional<std::filesystem::path> cost_map;
+  std::optional<std::filesystem::path> owner_map;
   ProgressStyle progress = ProgressStyle::automatic;
   bool quiet = false;
   bool verbose = false;

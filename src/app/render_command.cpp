@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "app/failure.h"
 #include "app/memory_use.h"
@@ -14,7 +15,9 @@
 #include "app/render_lead.h"
 #include "app/shared_arrays.h"
 #include "app/shared_tree.h"
+#include "scheduler/clock_offset.h"
 #include "scheduler/launcher.h"
+#include "scheduler/mpi/clock_offset.h"
 #include "scheduler/mpi/farewell.h"
 #include "scheduler/mpi/session.h"
 #include "scheduler/mpi/transport.h"
@@ -31,8 +34,7 @@ using scheduler::mpi::Session;
 /// Rank 0's way through a render, whatever the others are: `run` carries out a plan.
 template <class Run>
 scheduler::RunRecord render_and_finish(RenderLead& lead, const RenderOptions& options, const Team& team,
-                                       const render::Scene& scene, const Copies& copies, const Stopwatch& total,
-                                       Run&& run) {
+                                       const render::Scene& scene, const Copies& copies, Run&& run) {
   const RenderJob& job = lead.job();
   const auto tiles = tiles_of(job, team.ranks);
   const scheduler::Plan plan = plan_of(job, tiles);
@@ -47,18 +49,18 @@ scheduler::RunRecord render_and_finish(RenderLead& lead, const RenderOptions& op
   const scheduler::RunRecord record = run(plan, work, accept);
   progress.finish();
   lead.memory() = memory_of(scene, copies);
-  lead.finish(mosaic, tiles, record, total);
+  lead.finish(mosaic, tiles, record);
   return record;
 }
 
 ExitCode render_alone(const RenderOptions& options, const std::string& command_line) {
   const Stopwatch total;
   const Team team;
-  RenderLead lead(options, command_line, team);
+  RenderLead lead(options, command_line, team, total);
   const Stopwatch build;
   const render::Scene scene(lead.take_scene(), lead.job().kernel);
-  lead.times().build = build.seconds();
-  render_and_finish(lead, options, team, scene, {}, total, [](const auto& plan, const auto& work, const auto& accept) {
+  lead.end_phase(kBuild, build);
+  render_and_finish(lead, options, team, scene, {}, [](const auto& plan, const auto& work, const auto& accept) {
     return scheduler::run_in_process(1, 0, plan, work, accept);
   });
   return ExitCode::success;
@@ -87,7 +89,7 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
   std::optional<RenderLead> lead;
   ExitCode code = ExitCode::success;
   try {
-    lead.emplace(options, command_line, team);
+    lead.emplace(options, command_line, team, total);
   } catch (...) {
     code = report_failure();
   }
@@ -99,19 +101,23 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
   scheduler::Bytes job = encode_job(lead->job());
   session.broadcast(job);
   const SceneArrays arrays = share_arrays(session, std::move(whole.spheres), std::move(whole.materials));
-  lead->times().broadcast = broadcast.seconds();
+  lead->end_phase(kBroadcast, broadcast);
 
   const Stopwatch build;
   const render::Scene scene = shared_scene(session, lead->job(), arrays);
   MpiTransport transport(session);
-  lead->times().build = build.seconds();
-  const scheduler::RunRecord record = render_and_finish(*lead, options, team, scene, arrays.copies, total,
-                                                        [&](const auto& plan, const auto& work, const auto& accept) {
-                                                          // Not before the picture has its memory: here all ranks'
-                                                          // clocks start.
-                                                          session.barrier();
-                                                          return scheduler::run_master(transport, plan, work, accept);
-                                                        });
+  lead->end_phase(kBuild, build);
+  const scheduler::RunRecord record = render_and_finish(
+      *lead, options, team, scene, arrays.copies, [&](const auto& plan, const auto& work, const auto& accept) {
+        // Not before the picture has its memory: here all ranks' clocks start.
+        session.barrier();
+        const Stopwatch clock;
+        std::vector<scheduler::ClockOffset> offsets;
+        if (lead->job().compares_clocks) offsets = measure_clock_offsets(session, clock);
+        scheduler::RunRecord run = scheduler::run_master(transport, plan, work, accept);
+        if (!offsets.empty()) set_clock_offsets(run, offsets, clock);
+        return run;
+      });
   scheduler::mpi::dismiss(session, record);
   return ExitCode::success;
 }
@@ -131,7 +137,9 @@ ExitCode follow(Session& session) {
   const TileWork work(scene, job, tiles, session.nodes() > 1 ? Packing::where_shorter : Packing::never);
   MpiTransport transport(session);
   session.barrier();
-  scheduler::run_worker(transport, plan_of(job, tiles), work);
+  const Stopwatch clock;
+  if (job.compares_clocks) measure_clock_offsets(session, clock);
+  scheduler::run_worker(transport, plan_of(job, tiles), work, clock);
   scheduler::mpi::await_dismissal(session);
   return ExitCode::success;
 }

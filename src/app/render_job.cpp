@@ -2,6 +2,8 @@
 #include "app/render_job.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstring>
 #include <stdexcept>
 #include <type_traits>
@@ -28,9 +30,11 @@ struct JobHeader {
   render::Tracer tracer;
   Layers layers;
   bool ask_back;
+  bool compares_clocks;
+  std::array<std::byte, 7> unused;
   double lease_s;
 };
-static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 48);
+static_assert(std::is_trivially_copyable_v<JobHeader> && sizeof(JobHeader) == 56);
 
 }  // namespace
 
@@ -47,6 +51,8 @@ scheduler::Bytes encode_job(const RenderJob& job) {
                          job.tracer,
                          job.layers,
                          job.ask_back,
+                         job.compares_clocks,
+                         {},
                          job.lease_s};
   const auto scene = io::encode_scene(job.scene);
   const scheduler::Bytes tiles = encode_tiles(job.cut);
@@ -73,6 +79,7 @@ RenderJob decode_job(std::span<const std::byte> bytes) {
   job.kernel = header.kernel;
   job.tracer = header.tracer;
   job.layers = header.layers;
+  job.compares_clocks = header.compares_clocks;
   job.tile_width = header.tile_width;
   job.tile_height = header.tile_height;
   job.policy = header.policy;

@@ -35,6 +35,7 @@ struct RenderJob {
   std::optional<unsigned> prefetch;
   bool ask_back = true;
   double lease_s = 1;
+  bool compares_clocks = false;  ///< so that a trace can lay the ranks' times side by side
 };
 
 scheduler::Bytes encode_job(const RenderJob& job);

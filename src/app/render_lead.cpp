@@ -51,8 +51,9 @@ std::uint64_t tiles_along(std::uint32_t length, std::uint32_t tile) {
 
 }  // namespace
 
-RenderLead::RenderLead(const RenderOptions& options, std::string command_line, const Team& team)
-    : options_(options), team_(team) {
+RenderLead::RenderLead(const RenderOptions& options, std::string command_line, const Team& team,
+                       const scheduler::Stopwatch& total)
+    : options_(options), team_(team), total_(total) {
   stats_.version = kVersion;
   stats_.command = std::move(command_line);
   const io::ImageFormat format = format_of(options.output);
@@ -68,11 +69,12 @@ RenderLead::RenderLead(const RenderOptions& options, std::string command_line, c
   if (options.error && options.tracer == render::Tracer::reference) {
     throw UsageError("--error does not go with --reference (it bounds how far a picture is from that one)");
   }
+  ScheduleFiles::check(options);
   job_.format = io::pixel_format_for(format, options.bits == 16 ? io::BitDepth::sixteen : io::BitDepth::eight);
 
   const scheduler::Stopwatch read;
   read_scene();
-  stats_.time_s.read = read.seconds();
+  end_phase(kRead, read);
   const render::SceneData& scene = job_.scene;
   stats_.scene = {scene.spheres.size(), scene.planes.size(), scene.lights.size(), scene.materials.size()};
   plan_schedule();
@@ -128,6 +130,7 @@ void RenderLead::plan_schedule() {
   const Size size = options_.tile.value_or(tile_size_without_costs(job_.area, samples));
   job_.tile_width = size.width;
   job_.tile_height = size.height;
+  job_.compares_clocks = options_.trace.has_value();
   if (tiles_along(job_.area.width, job_.tile_width) * tiles_along(job_.area.height, job_.tile_height) > kMaxTiles) {
     throw UsageError("--tile-size cuts the picture into more than 100 million tiles, use larger ones");
   }
@@ -174,7 +177,10 @@ void RenderLead::open_outputs() {
                        {"--signature", options_.signature},
                        {"--error", options_.error},
                        {"--stats", options_.stats},
-                       {"--tile-stats", options_.tile_stats}});
+                       {"--tile-stats", options_.tile_stats},
+                       {"--trace", options_.trace},
+                       {"--cost-map", options_.cost_map},
+                       {"--owner-map", options_.owner_map}});
   picture_.emplace(options_.output);
   if (format_of(options_.output) == io::ImageFormat::png) {
     png_.emplace(io::PngHeader{job_.area.width, job_.area.height, job_.format, job_.scene.image.transfer}, kText);
@@ -183,6 +189,7 @@ void RenderLead::open_outputs() {
   if (options_.error) error_file_.emplace(*options_.error);
   if (options_.stats) stats_file_.emplace(*options_.stats);
   if (options_.tile_stats) tile_stats_file_.emplace(*options_.tile_stats);
+  schedule_files_.emplace(options_);
 }
 
 void RenderLead::pack(const Mosaic& mosaic) {
@@ -197,8 +204,14 @@ void RenderLead::pack_rows(const Mosaic& mosaic) {
   packed_rows_ = complete;
 }
 
-void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run,
-                        const scheduler::Stopwatch& total) {
+void RenderLead::add_phase(const PhaseKind& kind, const scheduler::Stopwatch& phase, double seconds) {
+  stats_.time_s.*kind.time = seconds;
+  const double begin_s = phase.seconds_after(total_);
+  phases_.push_back({kind.name, begin_s, begin_s + seconds});
+}
+
+void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run) {
+  add_phase(kRender, run.clock, run.makespan_s);
   const scheduler::Stopwatch write;
   if (png_) {
     pack_rows(mosaic);
@@ -208,19 +221,20 @@ void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tile
   }
   if (signature_file_) signature_file_->write(io::encode_signatures(mosaic.signatures()));
   if (error_file_) error_file_->write(io::encode_pfm(job_.area.width, job_.area.height, mosaic.errors()));
-  stats_.time_s.write = write.seconds();
-  stats_.time_s.render = run.makespan_s;
-  stats_.time_s.total = total.seconds();
+  end_phase(kWrite, write);
+  stats_.time_s.total = total_.seconds();
 
   fill_stats(stats_, job_, team_, tiles, mosaic, run);
   if (stats_file_) stats_file_->write(to_json(stats_));
   if (tile_stats_file_) tile_stats_file_->write(tile_stats_csv(tile_rows(tiles, mosaic.rays(), run)));
+  schedule_files_->write({run, run.clock.seconds_after(total_), tiles, mosaic.rays(), phases_}, job_.area);
   // No file gets its name before all of them are written.
   picture_->commit();
   if (signature_file_) signature_file_->commit();
   if (error_file_) error_file_->commit();
   if (stats_file_) stats_file_->commit();
   if (tile_stats_file_) tile_stats_file_->commit();
+  schedule_files_->commit();
   if (options_.quiet) return;
   for (const std::string& note : notes_) std::fprintf(stderr, "note: %s\n", note.c_str());
   print_report(stats_, options_);

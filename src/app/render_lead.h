@@ -3,12 +3,16 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/options.h"
 #include "app/render_job.h"
 #include "app/report.h"
+#include "app/schedule_files.h"
 #include "app/text_output.h"
+#include "app/timeline.h"
 #include "io/output_file.h"
 #include "io/png.h"
 #include "io/stats.h"
@@ -19,11 +23,24 @@
 // at the end writes the picture, the statistics and the report.
 namespace tessera::app {
 
+/// A part of a render that is timed: its name and where the statistics keep its time.
+struct PhaseKind {
+  std::string_view name;
+  double io::Stats::Times::*time;
+};
+
+inline constexpr PhaseKind kRead{"read", &io::Stats::Times::read};
+inline constexpr PhaseKind kBroadcast{"broadcast", &io::Stats::Times::broadcast};
+inline constexpr PhaseKind kBuild{"build", &io::Stats::Times::build};
+inline constexpr PhaseKind kRender{"render", &io::Stats::Times::render};
+inline constexpr PhaseKind kWrite{"write", &io::Stats::Times::write};
+
 class RenderLead {
  public:
-  /// Reads the scene, decides on the tiles and opens the outputs.
+  /// Reads the scene, decides on the tiles and opens the outputs; `total` started with the render command.
   /// throws:  UsageError, io::Error
-  RenderLead(const RenderOptions& options, std::string command_line, const Team& team);
+  RenderLead(const RenderOptions& options, std::string command_line, const Team& team,
+             const scheduler::Stopwatch& total);
 
   const RenderJob& job() const noexcept { return job_; }
 
@@ -31,19 +48,18 @@ class RenderLead {
   /// one without them from then on.
   render::SceneData take_scene();
 
-  /// Phases that are timed elsewhere go in here.
-  io::Stats::Times& times() noexcept { return stats_.time_s; }
-  /// The same of memory.
+  /// Takes down a phase that ends now and began with its stopwatch.
+  void end_phase(const PhaseKind& kind, const scheduler::Stopwatch& phase) { add_phase(kind, phase, phase.seconds()); }
+  /// What the scene takes goes in here.
   io::Stats::Memory& memory() noexcept { return stats_.memory; }
 
   /// Packs what is complete of the picture, so that little is left to do at the end. With one rank that is no gain, and
   /// it would count as rendering.
   void pack(const Mosaic& mosaic);
 
-  /// Writes every output and prints the report; `total` started with the render command.
+  /// Writes every output and prints the report.
   /// throws:  io::Error
-  void finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run,
-              const scheduler::Stopwatch& total);
+  void finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run);
 
  private:
   void read_scene();
@@ -54,9 +70,11 @@ class RenderLead {
   void fall_back_to_bands();
   void open_outputs();
   void pack_rows(const Mosaic& mosaic);
+  void add_phase(const PhaseKind& kind, const scheduler::Stopwatch& phase, double seconds);
 
   const RenderOptions& options_;
   Team team_;
+  scheduler::Stopwatch total_;
   RenderJob job_;
   io::Stats stats_;
   std::vector<std::string> notes_;
@@ -67,6 +85,8 @@ class RenderLead {
   std::optional<io::OutputFile> error_file_;
   std::optional<TextOutput> stats_file_;
   std::optional<TextOutput> tile_stats_file_;
+  std::optional<ScheduleFiles> schedule_files_;
+  std::vector<Phase> phases_;
 };
 
 }  // namespace tessera::app

@@ -39,6 +39,15 @@ void print_ranks(const io::Stats& stats, bool all) {
   }
 }
 
+/// What sharing the work took; nothing where no message was sent.
+void print_messages(const io::Stats& stats) {
+  if (stats.messages.count == 0) return;
+  std::fprintf(stderr, "messages: %.2f and %.0f bytes a tile, rank 0 spent %.3g us on a result, ",
+               stats.messages.per_tile, stats.messages.bytes_per_tile, 1e6 * stats.messages.master_s_per_tile);
+  std::fprintf(stderr, "workers held %.1f tiles, at most %u\n", stats.schedule.prefetch_mean,
+               stats.schedule.prefetch_most);
+}
+
 io::Stats::Error summary_of(std::span<const float> bounds) {
   io::Stats::Error error;
   for (const float bound : bounds) {
@@ -81,10 +90,17 @@ void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::s
                 const Mosaic& mosaic, const scheduler::RunRecord& run) {
   const std::span<const render::RayCounts> rays = mosaic.rays();
   const render::SceneData& scene = job.scene;
+  const scheduler::Overhead overhead = overhead_of(run);
   stats.image = {job.area.width, job.area.height, scene.image.samples, scene.image.max_bounces};
   stats.mpi = {team.ranks, team.nodes, team.library};
-  stats.schedule = {std::string(name_of(job.policy)), 0, 0, tiles.size(), job.prefetch.value_or(0),
-                    std::string(name_of(job.master))};
+  stats.schedule = {std::string(name_of(job.policy)),
+                    0,
+                    0,
+                    tiles.size(),
+                    job.prefetch.value_or(0),
+                    std::string(name_of(job.master)),
+                    overhead.mean_held,
+                    overhead.most_held};
   for (const render::Rect& tile : tiles) {
     stats.schedule.tile_width = std::max(stats.schedule.tile_width, tile.width);
     stats.schedule.tile_height = std::max(stats.schedule.tile_height, tile.height);
@@ -104,7 +120,8 @@ void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::s
   const scheduler::Balance balance = balance_of(run);
   stats.balance = {balance.imbalance, balance.load_balance,   balance.efficiency,
                    balance.tail_s,    balance.graham_bound_s, balance.makespan_s};
-  stats.messages = {run.messages.count, run.messages.bytes};
+  stats.messages = {run.messages.count, run.messages.bytes, overhead.messages_per_task, overhead.bytes_per_task,
+                    overhead.master_s_per_task};
   const scheduler::Faults& faults = run.faults;
   stats.faults = {faults.silences, faults.reissued, faults.damaged, faults.late, faults.returned, faults.wasted_s, {}};
   for (const scheduler::LostRank& lost : run.lost) stats.faults.lost.push_back(lost.rank);
@@ -117,8 +134,9 @@ std::vector<io::TileRow> tile_rows(std::span<const render::Rect> tiles, std::spa
   rows.reserve(tiles.size());
   for (std::size_t i = 0; i != tiles.size(); ++i) {
     const scheduler::TaskRecord& task = run.tasks[i];
+    const double offset_s = run.ranks[task.rank].clock_offset_s;
     rows.push_back({index_of(task.task), tiles[i].x, tiles[i].y, tiles[i].width, tiles[i].height, task.rank,
-                    task.start_s, task.end_s, rays[i].total(), task.bytes});
+                    task.start_s + offset_s, task.end_s + offset_s, rays[i].total(), task.bytes});
   }
   return rows;
 }
@@ -133,9 +151,12 @@ void print_report(const io::Stats& stats, const RenderOptions& options) {
                stats.mpi.size, stats.mpi.size == 1 ? "" : "s", stats.mpi.nodes, stats.mpi.nodes == 1 ? "" : "s");
   print_ranks(stats, options.verbose);
   std::fprintf(stderr,
-               "load balance: efficiency %.1f %%, imbalance %.1f %%, tail %s, makespan %s (Graham's bound %s)\n",
-               100 * stats.balance.efficiency, 100 * stats.balance.imbalance, duration(stats.balance.tail_s).c_str(),
-               duration(stats.balance.makespan_s).c_str(), duration(stats.balance.graham_bound_s).c_str());
+               "load balance: efficiency %.1f %%, mean/max %.1f %%, imbalance %.1f %%, tail %s, makespan %s (Graham's "
+               "bound %s)\n",
+               100 * stats.balance.efficiency, 100 * stats.balance.load_balance, 100 * stats.balance.imbalance,
+               duration(stats.balance.tail_s).c_str(), duration(stats.balance.makespan_s).c_str(),
+               duration(stats.balance.graham_bound_s).c_str());
+  print_messages(stats);
   print_faults(stats);
   const std::uint64_t pixels = std::uint64_t{stats.image.width} * stats.image.height;
   if (stats.error && stats.error->uncertified == pixels) {

@@ -18,7 +18,7 @@ class TextOutput {
     if (path != "-") file_.emplace(path);
   }
 
-  /// Writes the whole text. Call once.
+  /// Appends text.
   /// throws:  io::Error(io_failure)
   void write(std::string_view text) {
     if (!file_) return io::write_text("-", text);

@@ -47,9 +47,14 @@ toml::table to_table(const Stats::Mpi& mpi) {
 }
 
 toml::table to_table(const Stats::Schedule& schedule) {
-  return toml::table{{"policy", schedule.policy},           {"tile_width", schedule.tile_width},
-                     {"tile_height", schedule.tile_height}, {"tiles", count(schedule.tiles)},
-                     {"prefetch", schedule.prefetch},       {"master", schedule.master}};
+  return toml::table{{"policy", schedule.policy},
+                     {"tile_width", schedule.tile_width},
+                     {"tile_height", schedule.tile_height},
+                     {"tiles", count(schedule.tiles)},
+                     {"prefetch", schedule.prefetch},
+                     {"master", schedule.master},
+                     {"prefetch_mean", schedule.prefetch_mean},
+                     {"prefetch_most", schedule.prefetch_most}};
 }
 
 toml::table to_table(const Stats::Memory& memory) {
@@ -80,7 +85,11 @@ toml::table to_table(const Stats::Balance& balance) {
 }
 
 toml::table to_table(const Stats::Messages& messages) {
-  return toml::table{{"count", count(messages.count)}, {"bytes", count(messages.bytes)}};
+  return toml::table{{"count", count(messages.count)},
+                     {"bytes", count(messages.bytes)},
+                     {"per_tile", messages.per_tile},
+                     {"bytes_per_tile", messages.bytes_per_tile},
+                     {"master_s_per_tile", messages.master_s_per_tile}};
 }
 
 toml::table to_table(const Stats::Faults& faults) {

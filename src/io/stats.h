@@ -39,6 +39,8 @@ struct Stats {
     std::uint64_t tiles = 0;
     std::uint32_t prefetch = 0;  ///< tiles that a worker holds, 0: as the policy finds right
     std::string master;
+    double prefetch_mean = 0;         ///< tiles that a worker really had and had not delivered, while it had any
+    std::uint32_t prefetch_most = 0;  ///< the same at most
   };
   struct Memory {
     double bytes_per_sphere = 0;   ///< of spheres, materials and tree; 0 without spheres
@@ -78,6 +80,9 @@ struct Stats {
   struct Messages {
     std::uint64_t count = 0;
     std::uint64_t bytes = 0;
+    double per_tile = 0;
+    double bytes_per_tile = 0;
+    double master_s_per_tile = 0;  ///< rank 0's time for a result that another rank sent
   };
   /// What went wrong between ranks and was made good.
   struct Faults {

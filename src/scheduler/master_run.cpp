@@ -2,6 +2,7 @@
 #include "scheduler/master_run.h"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -83,22 +84,23 @@ bool MasterRun::serve() {
     std::visit([&](const auto& message) { on(envelope->source, message); }, decode(envelope->bytes));
   }
   if (clock_.seconds() >= next_tick_s_) {
-    tell_master(Tick{});
+    tell_master(Tick{}, clock_.seconds());
     next_tick_s_ = clock_.seconds() + plan_.lease_s / kTicksPerLease;
   }
   return got_messages;
 }
 
 void MasterRun::on(Rank from, const HelloMessage& hello) {
-  tell_master(Hello{from});
+  tell_master(Hello{from}, clock_.seconds());
   record_.ranks[from].host = hello.host;
   processes_[from] = hello.pid;
 }
 
 void MasterRun::on(Rank from, const ResultMessage& result) {
+  const double received_s = clock_.seconds();
   // The answer goes out first: the worker needs it more urgently than the picture needs the pixels.
   const double busy_s = seconds_from_ns(result.busy_ns);
-  if (tell_master(Result{from, result.task, busy_s, seconds_from_ns(result.start_ns)}) == Verdict::late) {
+  if (tell_master(Result{from, result.task, busy_s, seconds_from_ns(result.start_ns)}, received_s) == Verdict::late) {
     record_.faults.wasted_s += busy_s;
     return;
   }
@@ -109,28 +111,34 @@ void MasterRun::on(Rank from, const ResultMessage& result) {
   RankRecord& rank = record_.ranks[from];
   ++rank.tasks;
   rank.busy_s += busy_s;
-  record_.tasks[index_of(result.task)] = {
+  TaskRecord& task = record_.tasks[index_of(result.task)];
+  // A task that went out again may come from the rank that had it before.
+  const double assigned_s = task.rank == from ? task.assigned_s : 0;
+  task = {
       .task = result.task,
       .rank = from,
       .start_s = seconds_from_ns(result.start_ns),
       .end_s = seconds_from_ns(result.start_ns + result.busy_ns),
       .bytes = result.payload.size(),
+      .assigned_s = assigned_s,
+      .received_s = received_s,
+      .accepted_s = clock_.seconds(),
   };
   if (master_.is_done()) record_.makespan_s = seconds_from_ns(clock_.elapsed_ns());
 }
 
 void MasterRun::on(Rank from, const DamagedMessage& damaged) {
-  tell_master(Damaged{from, damaged.task});
+  tell_master(Damaged{from, damaged.task}, clock_.seconds());
 }
 void MasterRun::on(Rank from, const ReturnMessage& returned) {
-  tell_master(Returned{from, returned.runs});
+  tell_master(Returned{from, returned.runs}, clock_.seconds());
 }
 void MasterRun::on(Rank from, const AliveMessage&) {
-  tell_master(Alive{from});
+  tell_master(Alive{from}, clock_.seconds());
 }
 void MasterRun::on(Rank from, const ByeMessage&) {
   // It went home after all.
-  if (tell_master(Bye{from}) == Verdict::late) {
+  if (tell_master(Bye{from}, clock_.seconds()) == Verdict::late) {
     std::erase_if(record_.lost, [&](const LostRank& lost) { return lost.rank == from; });
   }
 }
@@ -155,22 +163,29 @@ void MasterRun::update_own_seat() {
   const bool renders = should_render(plan_, load) || master_.is_deserted();
   if (renders == seated_) return;
   seated_ = renders;
-  tell_master(renders ? Event{TakeSeat{}} : Event{LeaveSeat{}});
+  tell_master(renders ? Event{TakeSeat{}} : Event{LeaveSeat{}}, clock_.seconds());
 }
 
-Verdict MasterRun::tell_master(const Event& event) {
+Verdict MasterRun::tell_master(const Event& event, double now_s) {
   actions_.clear();
-  const Verdict verdict = master_.handle(event, clock_.seconds(), actions_);
+  const Verdict verdict = master_.handle(event, now_s, actions_);
   if (verdict != Verdict::accepted && verdict != Verdict::late) {
     refuse(std::visit([](const auto& happened) { return rank_of(happened); }, event), problem_with(verdict));
   }
   for (const Action& action : actions_) {
-    std::visit([&](const auto& wanted) { perform(wanted); }, action);
+    std::visit([&](const auto& wanted) { perform(wanted, now_s); }, action);
   }
   return verdict;
 }
 
-void MasterRun::perform(const Assign& assign) {
+void MasterRun::perform(const Assign& assign, double now_s) {
+  for (const TaskRun& run : assign.runs) {
+    const auto tasks = std::span(record_.tasks).subspan(index_of(run.first), run.count);
+    for (TaskRecord& task : tasks) {
+      task.rank = assign.rank;
+      task.assigned_s = now_s;
+    }
+  }
   if (assign.rank == kMasterRank) {
     own_.assign(assign.runs);
   } else {
@@ -178,20 +193,20 @@ void MasterRun::perform(const Assign& assign) {
   }
 }
 
-void MasterRun::perform(const AskBack& ask) {
+void MasterRun::perform(const AskBack& ask, double) {
   transport_.send(ask.rank, encode(BackMessage{ask.tasks}));
 }
 
-void MasterRun::perform(const Stop& stop) {
+void MasterRun::perform(const Stop& stop, double) {
   transport_.send(stop.rank, encode(StopMessage{}));
 }
 
-void MasterRun::perform(const GiveUp& give_up) {
+void MasterRun::perform(const GiveUp& give_up, double) {
   transport_.abandon(give_up.rank);
   record_.lost.push_back({give_up.rank, record_.ranks[give_up.rank].host, processes_[give_up.rank]});
 }
 
-void MasterRun::perform(const Done&) {}  // the makespan is taken once the result is in its place
+void MasterRun::perform(const Done&, double) {}  // the makespan is taken once the result is in its place
 
 RunRecord MasterRun::take_record() {
   for (RankRecord& rank : record_.ranks) rank.wait_s = std::max(0.0, record_.makespan_s - rank.busy_s);
@@ -200,6 +215,7 @@ RunRecord MasterRun::take_record() {
   record_.faults = master_.faults();
   record_.faults.wasted_s = wasted_s;
   record_.messages = {now.count - before_.count, now.bytes - before_.bytes};
+  record_.clock = clock_;
   return std::move(record_);
 }
 

@@ -47,12 +47,12 @@ class MasterRun {
 
   void render(TaskId task);
   void update_own_seat();
-  Verdict tell_master(const Event& event);
-  void perform(const Assign& assign);
-  void perform(const AskBack& ask);
-  void perform(const Stop& stop);
-  void perform(const GiveUp& give_up);
-  void perform(const Done& done);
+  Verdict tell_master(const Event& event, double now_s);
+  void perform(const Assign& assign, double now_s);
+  void perform(const AskBack& ask, double now_s);
+  void perform(const Stop& stop, double now_s);
+  void perform(const GiveUp& give_up, double now_s);
+  void perform(const Done& done, double now_s);
 
   Transport& transport_;
   Plan plan_;

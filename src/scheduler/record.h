@@ -6,18 +6,22 @@
 #include <vector>
 
 #include "scheduler/bytes.h"
+#include "scheduler/stopwatch.h"
 #include "scheduler/task.h"
 
 // What happened in a run, for statistics, traces and pictures of the schedule.
 namespace tessera::scheduler {
 
-/// units:   seconds since the rank began its render phase
+/// units:   seconds since the rank began its render phase: rank 0 for what it assigns, receives and accepts
 struct TaskRecord {
   TaskId task{};
   Rank rank = 0;
   double start_s = 0;
   double end_s = 0;  ///< start plus the time spent on the task, without messages served in between
   std::size_t bytes = 0;
+  double assigned_s = 0;  ///< rank 0 is about to hand it to this rank
+  double received_s = 0;  ///< rank 0 has the result
+  double accepted_s = 0;  ///< the result is in its place
 };
 
 /// units:   seconds
@@ -26,7 +30,9 @@ struct RankRecord {
   std::string host;
   std::uint32_t tasks = 0;
   double busy_s = 0;
-  double wait_s = 0;  ///< makespan - busy
+  double wait_s = 0;               ///< makespan - busy
+  double clock_offset_s = 0;       ///< added to the rank's own times it gives rank 0's; 0 where nobody measured
+  double clock_uncertainty_s = 0;  ///< how far off that may be
 };
 
 /// What went wrong on the way and was made good.
@@ -57,6 +63,7 @@ struct RunRecord {
   Traffic messages;  ///< sent and received by rank 0
   Faults faults;
   std::vector<LostRank> lost;
+  Stopwatch clock;   ///< rank 0's, whose times these are
 };
 
 }  // namespace tessera::scheduler

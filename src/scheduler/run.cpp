@@ -26,8 +26,8 @@ RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, c
   return master.take_record();
 }
 
-void run_worker(Transport& transport, const Plan& plan, const Work& work) {
-  WorkerRun worker(transport, plan, work);
+void run_worker(Transport& transport, const Plan& plan, const Work& work, const Stopwatch& clock) {
+  WorkerRun worker(transport, plan, work, clock);
   run_to_end(worker, transport);
 }
 

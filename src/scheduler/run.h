@@ -5,6 +5,7 @@
 
 #include "scheduler/plan.h"
 #include "scheduler/record.h"
+#include "scheduler/stopwatch.h"
 #include "scheduler/transport.h"
 #include "scheduler/work.h"
 
@@ -19,9 +20,10 @@ namespace tessera::scheduler {
 ///          and what `work` and `accept` throw. The other ranks then wait for ever: the caller ends them.
 RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, const Accept& accept);
 
-/// Renders what the plan says and rank 0 assigns until it says stop. The plan is the same on all ranks.
+/// Renders what the plan says and rank 0 assigns until it says stop. The plan is the same on all ranks. The times of its
+/// results are those of `clock`, for a caller who knows how that one differs from rank 0's.
 /// throws:  std::runtime_error on a message that it cannot follow, and what `work` throws
-void run_worker(Transport& transport, const Plan& plan, const Work& work);
+void run_worker(Transport& transport, const Plan& plan, const Work& work, const Stopwatch& clock = Stopwatch());
 
 /// The same with all ranks in this thread: a random rank takes the next step, messages arrive in a random order, and
 /// both follow from `seed`. One rank does without either. Nobody is given up, for ranks that take turns keep no time.

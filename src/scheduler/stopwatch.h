@@ -19,6 +19,11 @@ class Stopwatch {
   }
   double seconds() const noexcept { return seconds_from_ns(elapsed_ns()); }
 
+  /// How much later than `other`, of the same process, it was made; negative where it was earlier.
+  double seconds_after(const Stopwatch& other) const noexcept {
+    return std::chrono::duration<double>(start_ - other.start_).count();
+  }
+
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -24,8 +24,9 @@ struct SentHome {};
 
 }  // namespace
 
-WorkerRun::WorkerRun(Transport& transport, const Plan& plan, Work work)
+WorkerRun::WorkerRun(Transport& transport, const Plan& plan, Work work, const Stopwatch& clock)
     : transport_(transport),
+      clock_(clock),
       work_(std::move(work), clock_, [this] { look_up_from_task(); }),
       sign_every_s_(plan.lease_s / kSignsPerLease) {
   send(encode(HelloMessage{process_id(), host_name()}));

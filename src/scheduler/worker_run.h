@@ -16,8 +16,9 @@ namespace tessera::scheduler {
 /// life where a task takes long, and goes when it is sent home, if need be from the middle of a task.
 class WorkerRun {
  public:
-  /// Says hello; the rank's clock starts here. `transport` must outlive this; the plan is the same on all ranks.
-  WorkerRun(Transport& transport, const Plan& plan, Work work);
+  /// Says hello; the times of its results are those of `clock`. `transport` must outlive this; the plan is the same on
+  /// all ranks.
+  WorkerRun(Transport& transport, const Plan& plan, Work work, const Stopwatch& clock = Stopwatch());
 
   /// Takes the messages that are here and does at most one task.
   /// throws:  std::runtime_error on a message that a worker cannot get; what `work` throws

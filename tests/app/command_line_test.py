@@ -167,10 +167,12 @@ class CommandLineTest(running_program.ProgramTest):
         stats = json.loads(run.stdout)
         keys = {
             "scene": "spheres planes lights materials", "image": "width height samples max_bounces",
-            "mpi": "size nodes library", "schedule": "policy tile_width tile_height tiles prefetch master",
+            "mpi": "size nodes library",
+            "schedule": "policy tile_width tile_height tiles prefetch master prefetch_mean prefetch_most",
             "time_s": "read broadcast build render write total", "rays": "primary shadow mirror",
             "balance": "imbalance load_balance efficiency tail_s graham_bound_s makespan_s",
-            "messages": "count bytes", "faults": "silences reissued damaged late returned wasted_s lost",
+            "messages": "count bytes per_tile bytes_per_tile master_s_per_tile",
+            "faults": "silences reissued damaged late returned wasted_s lost",
             "memory": "bytes_per_sphere node_bytes rank_bytes",
         }
         for key, inner in keys.items():
@@ -185,6 +187,9 @@ class CommandLineTest(running_program.ProgramTest):
         self.assertGreater(stats["memory"]["bytes_per_sphere"], 40)
         self.assertGreaterEqual(stats["memory"]["node_bytes"], stats["memory"]["bytes_per_sphere"])
         self.assertGreater(stats["memory"]["rank_bytes"], 0)
+        messages, tiles = stats["messages"], stats["schedule"]["tiles"]
+        self.assertAlmostEqual(messages["per_tile"], messages["count"] / tiles)
+        self.assertAlmostEqual(messages["bytes_per_tile"], messages["bytes"] / tiles)
 
         with open(self.folder / "tiles.csv", newline="") as file:
             rows = list(csv.DictReader(file))
@@ -197,9 +202,11 @@ class CommandLineTest(running_program.ProgramTest):
         loud = self.run_tessera("render", self.scene, ranks=2)
         self.assertIn("load balance: efficiency", loud.stderr)
         self.assertRegex(loud.stderr, r"memory: \d+ bytes a sphere, \d+\.\d MiB a node, besides \d+\.\d MiB on rank 0\n")
+        self.assertRegex(loud.stderr, r"\nmessages: \d\.\d\d and \d+ bytes a tile, rank 0 spent")
         self.assertEqual(loud.stdout, "")
         alone = self.run_tessera("render", self.scene)
         self.assertIn("load balance: efficiency", alone.stderr)
+        self.assertNotIn("messages:", alone.stderr)
         self.assertEqual(self.run_tessera("render", self.scene, "-q", ranks=2).stderr, "")
 
     def test_plain_progress_is_whole_lines(self):

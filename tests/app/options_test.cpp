@@ -61,7 +61,8 @@ BOOST_AUTO_TEST_CASE(every_render_option_is_understood) {
        "-b",          "0",     "--crop",     "1,2,30,40", "--transfer",   "none",      "--shade",    "blinn",
        "--tile-size", "7x5",   "--schedule", "guided",    "--master",     "dedicated", "--prefetch", "3",
        "--kernel",    "brute", "--stats",    "-",         "--tile-stats", "t.csv",     "--progress", "plain",
-       "-q",          "-v",    "--costs",    "c.csv"});
+       "--trace",     "-",     "--cost-map", "c.png",     "--owner-map",  "o.png",     "-q",         "-v",
+       "--costs",     "c.csv"});
   BOOST_TEST(options.output == "a.ppm");
   BOOST_TEST(options.bits == 16u);
   BOOST_TEST(options.resolution->width == 64u);
@@ -80,6 +81,9 @@ BOOST_AUTO_TEST_CASE(every_render_option_is_understood) {
   BOOST_TEST(options.stats.value() == "-");
   BOOST_TEST(options.tile_stats.value() == "t.csv");
   BOOST_TEST(options.costs.value() == "c.csv");
+  BOOST_TEST(options.trace.value() == "-");
+  BOOST_TEST(options.cost_map.value() == "c.png");
+  BOOST_TEST(options.owner_map.value() == "o.png");
   BOOST_TEST((options.progress == ProgressStyle::plain));
   BOOST_TEST(options.quiet);
   BOOST_TEST(options.verbose);

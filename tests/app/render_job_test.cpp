@@ -27,6 +27,7 @@ BOOST_AUTO_TEST_CASE(a_job_survives_the_way_to_another_rank) {
   job.prefetch = 5;
   job.ask_back = false;
   job.lease_s = 2.5;
+  job.compares_clocks = true;
   const RenderJob copy = decode_job(encode_job(job));
   BOOST_TEST((copy.area == job.area));
   BOOST_TEST((copy.format == job.format));
@@ -40,6 +41,7 @@ BOOST_AUTO_TEST_CASE(a_job_survives_the_way_to_another_rank) {
   BOOST_TEST(copy.prefetch.value() == 5u);
   BOOST_TEST(!copy.ask_back);
   BOOST_TEST(copy.lease_s == 2.5);
+  BOOST_TEST(copy.compares_clocks);
   BOOST_TEST(copy.scene.spheres.size() == job.scene.spheres.size());
   BOOST_TEST((encode_job(copy) == encode_job(job)));
 }

@@ -42,14 +42,14 @@ BOOST_AUTO_TEST_CASE(json_has_every_key_that_scripts_rely_on) {
   stats.scene = {1, 2, 3, 4};
   stats.image = {5, 6, 7, 8};
   stats.mpi = {9, 10, "OpenMPI"};
-  stats.schedule = {"dynamic", 11, 12, 13, 14, "auto"};
+  stats.schedule = {"dynamic", 11, 12, 13, 14, "auto", 14.5, 25};
   stats.memory = {70.5, 25, 26};
   stats.time_s = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5};
   stats.rays = {15, 16, 17};
   stats.skipped = {{"shadow", 18}};
   stats.ranks = {{19, "node", 20, 21, 22, 6.5, 7.5}};
   stats.balance = {8.5, 9.5, 10.5, 11.5, 12.5, 13.5};
-  stats.messages = {23, 24};
+  stats.messages = {23, 24, 15.5, 16.5, 17.5};
   stats.faults = {25, 26, 27, 28, 29, 14.5, {30, 31}};
   BOOST_TEST(
       packed_json(stats) ==
@@ -57,12 +57,13 @@ BOOST_AUTO_TEST_CASE(json_has_every_key_that_scripts_rely_on) {
       R"("makespan_s":13.5,"tail_s":11.5},"command":"render",)"
       R"("faults":{"damaged":27,"late":28,"lost":[30,31],"reissued":26,"returned":29,"silences":25,"wasted_s":14.5},)"
       R"("image":{"height":6,"max_bounces":8,"samples":7,"width":5},"memory":{"bytes_per_sphere":70.5,"node_bytes":25,"rank_bytes":26},)"
-      R"("messages":{"bytes":24,"count":23},)"
+      R"("messages":{"bytes":24,"bytes_per_tile":16.5,"count":23,"master_s_per_tile":17.5,"per_tile":15.5},)"
       R"("mpi":{"library":"OpenMPI","nodes":10,"size":9},)"
       R"("ranks":[{"busy_s":6.5,"host":"node","pixels":21,"rank":19,"rays":22,"tiles":20,"wait_s":7.5}],)"
       R"("rays":{"mirror":17,"primary":15,"shadow":16},)"
       R"("scene":{"lights":3,"materials":4,"planes":2,"spheres":1},)"
-      R"("schedule":{"master":"auto","policy":"dynamic","prefetch":14,"tile_height":12,"tile_width":11,)"
+      R"("schedule":{"master":"auto","policy":"dynamic","prefetch":14,"prefetch_mean":14.5,)"
+      R"("prefetch_most":25,"tile_height":12,"tile_width":11,)"
       R"("tiles":13},"schema":1,"skipped":{"shadow":18},)"
       R"("time_s":{"broadcast":1.5,"build":2.5,"read":0.5,"render":3.5,"total":5.5,"write":4.5},)"
       R"("version":"1.2.3"})");

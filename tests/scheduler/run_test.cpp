@@ -118,6 +118,10 @@ BOOST_AUTO_TEST_CASE(the_record_adds_up) {
     BOOST_TEST(task.bytes == payload_of(TaskId{i}).size());
     BOOST_TEST(task.start_s <= task.end_s);
     BOOST_TEST(task.end_s <= run.makespan_s);
+    BOOST_TEST(task.assigned_s >= 0.0);
+    BOOST_TEST(task.assigned_s + (task.end_s - task.start_s) <= task.received_s);
+    BOOST_TEST(task.received_s <= task.accepted_s);
+    BOOST_TEST(task.accepted_s <= run.makespan_s);
     ++tasks[task.rank];
     busy_s[task.rank] += task.end_s - task.start_s;
     if (task.rank == kMasterRank) continue;
