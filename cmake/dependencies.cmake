@@ -7,7 +7,7 @@ find_package(CLI11 REQUIRED)                # libcli11-dev: the command line
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)  # libtomlplusplus-dev: scenes, with line and column of every value
 pkg_check_modules(gmpxx REQUIRED IMPORTED_TARGET gmpxx)                # libgmp-dev: integers of any size, for exact decisions
-pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)           # libxxhash-dev: checksums of what travels
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)           # libxxhash-dev: checksums
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)                 # liblz4-dev: tiles packed for the way between nodes
 if(TESSERA_BUILD_TESTS)
   find_package(Boost 1.74 REQUIRED COMPONENTS unit_test_framework)     # libboost-test-dev

@@ -4,6 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS tessera RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(PROGRAMS scripts/tessera-run DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS tessera_flags tessera_render tessera_scheduler tessera_io tessera_mpi EXPORT tessera_targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(room render scheduler io)

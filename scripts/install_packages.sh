@@ -15,7 +15,7 @@ packages=(
   libtomlplusplus-dev                   # scene files
   liblz4-dev                            # tiles packed for the way between nodes
   libgmp-dev                            # integers of any size, for exact decisions
-  libxxhash-dev                         # checksums of what travels
+  libxxhash-dev                         # checksums
 )
 if [ "${1:-}" = bench ]; then
   packages+=(libbenchmark-dev)          # benchmark programs

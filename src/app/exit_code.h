@@ -15,6 +15,8 @@ enum class ExitCode : int {
   internal = 70,
   cannot_create = 73,
   io_failure = 74,
+  interrupted = 130,  ///< by SIGINT; a journal keeps what was rendered
+  terminated = 143,   ///< by SIGTERM, likewise
 };
 
 /// The command line cannot be carried out; what() says why in one line.

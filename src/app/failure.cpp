@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/failure.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <new>
 
+#include "app/interruption.h"
 #include "io/error.h"
 #include "scheduler/launcher.h"
 #include "scheduler/mpi/session.h"
@@ -26,11 +29,15 @@ ExitCode code_of(io::ErrorKind kind) noexcept {
   return ExitCode::internal;
 }
 
-/// One line, whatever a file's name holds.
+/// One line, whatever a file's name holds, in one write: between two a launcher may put words of its own.
 void print(const char* what) noexcept {
-  std::fputs("tessera: ", stderr);
-  for (const char* c = what; *c != '\0'; ++c) std::fputc(*c == '\n' || *c == '\r' ? '?' : *c, stderr);
-  std::fputc('\n', stderr);
+  std::array<char, 4096> line;
+  const int length = std::snprintf(line.data(), line.size() - 1, "tessera: %s", what);
+  char* const end = line.data() + std::min(static_cast<std::size_t>(length), line.size() - 2);
+  std::replace_if(
+      line.data(), end, [](char c) { return c == '\n' || c == '\r'; }, '?');
+  *end = '\n';
+  std::fwrite(line.data(), 1, static_cast<std::size_t>(end + 1 - line.data()), stderr);
 }
 
 }  // namespace
@@ -44,6 +51,9 @@ ExitCode report_failure() noexcept {
   } catch (const UsageError& error) {
     print(error.what());
     return ExitCode::usage;
+  } catch (const Interrupted& interrupted) {
+    print(interrupted.what());
+    return interrupted.code();
   } catch (const std::bad_alloc&) {
     print("out of memory");
   } catch (const std::exception& error) {

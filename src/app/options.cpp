@@ -204,6 +204,21 @@ void add_accuracy_options(CLI::App& app, RenderOptions& options) {
       ->type_name("FILE");
 }
 
+void add_fault_options(CLI::App& app, RenderOptions& options) {
+  const auto group = app.add_option_group("Faults", "what an interrupted run leaves to the next");
+  group
+      ->add_option("--journal", options.journal,
+                   "keep what is rendered in this file until all outputs are written, then delete it")
+      ->type_name("FILE");
+  group->add_flag("--resume", options.resume,
+                  "go on from the journal of a run that did not end; ranks, tiles and schedule may differ");
+}
+
+void check_fault_options(const RenderOptions& options) {
+  if (options.resume && !options.journal) throw UsageError("--resume needs a journal: --journal FILE --resume");
+  if (options.journal == "-") throw UsageError("--journal: \"-\" is not a file (a journal is read again)");
+}
+
 void add_report_options(CLI::App& app, RenderOptions& options) {
   const auto group = app.add_option_group("Report", "\"-\" as FILE is standard output");
   group->add_option("--stats", options.stats, "write times, rays and load balance as JSON")->type_name("FILE");
@@ -269,6 +284,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   add_picture_options(render_app, render);
   add_schedule_options(render_app, render);
   add_accuracy_options(render_app, render);
+  add_fault_options(render_app, render);
   add_report_options(render_app, render);
 
   CLI::App& compare_app = *app.add_subcommand("compare", "measure how far two pictures are apart");
@@ -319,6 +335,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   if (convert_app.parsed()) return convert;
   if (!render_app.parsed())
     throw UsageError("a command is missing: tessera render SCENE -o out.png, or see tessera --help");
+  check_fault_options(render);
   if (render.output.empty()) render.output = render.input.stem().concat(".png");
   return render;
 }

@@ -46,6 +46,8 @@ struct RenderOptions {
   render::Kernel kernel = render::Kernel::automatic;
   render::Tracer tracer = render::Tracer::fast;
 
+  std::optional<std::filesystem::path> journal;
+  bool resume = false;  ///< only with a journal
   std::optional<std::filesystem::path> signature;
   std::optional<std::filesystem::path> error;
   std::optional<std::filesystem::path> stats;       ///< "-" is stdout

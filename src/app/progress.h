@@ -19,6 +19,9 @@ class Progress {
  public:
   /// What `automatic` means: a bar on a terminal, a line every few seconds under a launcher, nothing into a pipe.
   Progress(ProgressStyle style, Surroundings where, std::size_t pixels);
+  ~Progress() { finish(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
 
   /// Counts pixels that are done; prints when it is time to.
   void advance(std::size_t pixels);

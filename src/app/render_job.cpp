@@ -106,12 +106,22 @@ std::vector<render::Rect> tiles_of(const RenderJob& job, std::uint32_t ranks) {
   return tiles;
 }
 
+std::uint32_t stored_bytes_per_pixel(const RenderJob& job) noexcept {
+  const std::size_t signature_size = job.layers.signatures ? sizeof(render::Signature) : 0;
+  const std::size_t error_size = job.layers.errors ? sizeof(float) : 0;
+  return static_cast<std::uint32_t>(bytes_per_pixel(job.format) + signature_size + error_size);
+}
+
 scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tiles) {
   scheduler::Plan plan{job.policy, static_cast<std::uint32_t>(tiles.size()), {}, job.master, job.prefetch, job.ask_back,
                        job.lease_s};
   if (has_owners(job.policy)) return plan;
+  // Of a job that is resumed, only some tiles are left, in the same order.
   plan.costs.reserve(job.cut.size());
-  for (const render::CostedTile& tile : job.cut) plan.costs.push_back(tile.cost);
+  for (const render::CostedTile& tile : job.cut) {
+    const std::size_t next = plan.costs.size();
+    if (next != tiles.size() && tile.rect == tiles[next]) plan.costs.push_back(tile.cost);
+  }
   return plan;
 }
 
@@ -142,8 +152,13 @@ Mosaic::Mosaic(const RenderJob& job, std::span<const render::Rect> tiles)
       area_(job.area),
       samples_(job.scene.image.samples),
       tiles_(tiles),
-      missing_(job.area.height, job.area.width),
-      rays_(tiles.size()) {}
+      missing_(job.area.height),
+      rays_(tiles.size()) {
+  for (const render::Rect& tile : tiles) {
+    for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y) missing_[y] += tile.width;
+  }
+  count_complete_rows();
+}
 
 void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered) {
   const render::Rect& tile = tiles_[index_of(task)];
@@ -161,9 +176,44 @@ void Mosaic::accept(scheduler::TaskId task, std::span<const std::byte> delivered
   }
   place(tile, arrived.signatures, std::as_writable_bytes(std::span(signatures_.pixels)));
   place(tile, arrived.errors, std::as_writable_bytes(std::span(errors_)));
-
   for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y) missing_[y] -= tile.width;
+  count_complete_rows();
+}
+
+void Mosaic::count_complete_rows() noexcept {
   while (complete_rows_ != area_.height && missing_[complete_rows_] == 0) ++complete_rows_;
+}
+
+void Mosaic::restore(const render::Rect& tile, std::span<const std::byte> pixels) {
+  const auto take_layer = [&](std::size_t pixel_size) {
+    const auto layer = pixels.first(tile.pixels() * pixel_size);
+    pixels = pixels.subspan(layer.size());
+    return layer;
+  };
+  place(tile, take_layer(bytes_per_pixel(image_.format)), image_.bytes);
+  if (!signatures_.pixels.empty()) {
+    place(tile, take_layer(sizeof(render::Signature)), std::as_writable_bytes(std::span(signatures_.pixels)));
+  }
+  if (!errors_.empty()) place(tile, take_layer(sizeof(float)), std::as_writable_bytes(std::span(errors_)));
+}
+
+void Mosaic::copy(const render::Rect& tile, std::span<std::byte> pixels) const {
+  std::byte* layer = copy_layer(tile, bytes_per_pixel(image_.format), image_.bytes.data(), pixels.data());
+  if (!signatures_.pixels.empty()) {
+    const auto from = std::as_bytes(std::span(signatures_.pixels));
+    layer = copy_layer(tile, sizeof(render::Signature), from.data(), layer);
+  }
+  if (!errors_.empty()) copy_layer(tile, sizeof(float), std::as_bytes(std::span(errors_)).data(), layer);
+}
+
+std::byte* Mosaic::copy_layer(const render::Rect& tile, std::size_t pixel_size, const std::byte* from,
+                              std::byte* to) const {
+  const std::size_t row_bytes = tile.width * pixel_size;
+  for (std::uint32_t y = tile.y - area_.y; y != tile.y - area_.y + tile.height; ++y, to += row_bytes) {
+    const std::size_t pixel = std::size_t{y} * area_.width + (tile.x - area_.x);
+    std::memcpy(to, from + pixel * pixel_size, row_bytes);
+  }
+  return to;
 }
 
 void Mosaic::place(const render::Rect& tile, std::span<const std::byte> layer, std::span<std::byte> to) const {

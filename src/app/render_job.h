@@ -46,6 +46,9 @@ RenderJob decode_job(std::span<const std::byte> bytes);
 /// grid of the tile size.
 std::vector<render::Rect> tiles_of(const RenderJob& job, std::uint32_t ranks);
 
+/// Bytes that a mosaic keeps for a pixel, all layers together.
+std::uint32_t stored_bytes_per_pixel(const RenderJob& job) noexcept;
+
 /// How the job's tiles are to be shared out.
 scheduler::Plan plan_of(const RenderJob& job, std::span<const render::Rect> tiles);
 
@@ -66,13 +69,19 @@ class TileWork {
   std::span<const render::Rect> tiles_;
 };
 
-/// Rank 0's picture, put together from what the tiles deliver in any order.
+/// Rank 0's picture, put together from what the tiles deliver in any order. What no tile covers is to be restored
+/// before the first of them.
 class Mosaic {
  public:
   Mosaic(const RenderJob& job, std::span<const render::Rect> tiles);
 
   /// throws:  std::runtime_error with the tile's number where the bytes are no such tile
   void accept(scheduler::TaskId task, std::span<const std::byte> delivered);
+
+  /// Copies what is in a rectangle of the area, layer by layer, row by row; puts it back.
+  /// shapes:  stored_bytes_per_pixel for each of the rectangle's pixels
+  void copy(const render::Rect& tile, std::span<std::byte> pixels) const;
+  void restore(const render::Rect& tile, std::span<const std::byte> pixels);
 
   const render::Image& image() const noexcept { return image_; }
   /// Rows at the top of the picture that are there to their last pixel.
@@ -85,8 +94,11 @@ class Mosaic {
   std::span<const render::RayCounts> rays() const noexcept { return rays_; }
 
  private:
+  void count_complete_rows() noexcept;
   /// Copies a tile's rows of one layer to their place.
   void place(const render::Rect& tile, std::span<const std::byte> layer, std::span<std::byte> to) const;
+  /// The other way round, and returns where the next layer begins.
+  std::byte* copy_layer(const render::Rect& tile, std::size_t pixel_size, const std::byte* from, std::byte* to) const;
   /// Gives all of a tile's pixels this colour.
   void fill(const render::Rect& tile, std::span<const std::byte> color);
   /// Where the first pixel of a tile's row is among those of the picture.

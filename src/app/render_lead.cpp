@@ -9,6 +9,8 @@
 #include "app/cut_to_cost.h"
 #include "app/exit_code.h"
 #include "app/framing.h"
+#include "app/interruption.h"
+#include "app/open_tiles.h"
 #include "app/report.h"
 #include "app/shared_names.h"
 #include "app/tile_size.h"
@@ -79,6 +81,7 @@ RenderLead::RenderLead(const RenderOptions& options, std::string command_line, c
   stats_.scene = {scene.spheres.size(), scene.planes.size(), scene.lights.size(), scene.materials.size()};
   plan_schedule();
   open_outputs();
+  find_open_tiles();
 }
 
 render::SceneData RenderLead::take_scene() {
@@ -174,6 +177,7 @@ void RenderLead::fall_back_to_bands() {
 void RenderLead::open_outputs() {
   refuse_shared_names({{"INPUT", options_.input},
                        {"-o", options_.output},
+                       {"--journal", options_.journal},
                        {"--signature", options_.signature},
                        {"--error", options_.error},
                        {"--stats", options_.stats},
@@ -190,10 +194,47 @@ void RenderLead::open_outputs() {
   if (options_.stats) stats_file_.emplace(*options_.stats);
   if (options_.tile_stats) tile_stats_file_.emplace(*options_.tile_stats);
   schedule_files_.emplace(options_);
+  if (options_.journal) {
+    journal_.emplace(*options_.journal, job_,
+                     options_.resume ? io::ExistingJournal::resume : io::ExistingJournal::refuse);
+    if (options_.resume && !journal_->file().is_resumed()) {
+      notes_.push_back(options_.journal->string() + " was not there to resume from: all is rendered anew");
+    }
+  }
 }
 
-void RenderLead::pack(const Mosaic& mosaic) {
+void RenderLead::find_open_tiles() {
+  if (!journal_ || !journal_->file().is_resumed()) return;
+  const std::vector<render::Rect> all = tiles_of(job_, team_.ranks);
+  open_marks_ = journal_->mark_open(all);
+  const std::vector<render::Rect> open = tiles();
+  is_rendered_ = open.empty();
+  std::size_t resumed_pixels = job_.area.pixels();
+  for (const render::Rect& tile : open) resumed_pixels -= tile.pixels();
+  stats_.resumed = {all.size() - open.size(), resumed_pixels, journal_->resumed_rays()};
+}
+
+std::vector<render::Rect> RenderLead::tiles() const {
+  return open_tiles(tiles_of(job_, team_.ranks), open_marks_);
+}
+
+void RenderLead::restore(Mosaic& mosaic) const {
+  if (journal_) journal_->restore(mosaic);
+}
+
+void RenderLead::keep(const render::Rect& tile, const render::RayCounts& rays, const Mosaic& mosaic) {
+  if (journal_) journal_->add(tile, rays, mosaic);
   if (png_ && team_.ranks > 1) pack_rows(mosaic);
+}
+
+void RenderLead::pulse() {
+  if (const int signal = pending_signal(); signal != 0) {
+    if (!journal_) throw Interrupted(signal, "nothing is kept; with --journal FILE a run can be resumed");
+    journal_->file().flush();
+    if (!journal_->file().has_records()) throw Interrupted(signal, "nothing was rendered yet");
+    throw Interrupted(signal, options_.journal->string() + " keeps what was rendered; add --resume to go on from it");
+  }
+  if (journal_) journal_->file().tick();
 }
 
 void RenderLead::pack_rows(const Mosaic& mosaic) {
@@ -213,6 +254,7 @@ void RenderLead::add_phase(const PhaseKind& kind, const scheduler::Stopwatch& ph
 void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run) {
   add_phase(kRender, run.clock, run.makespan_s);
   const scheduler::Stopwatch write;
+  if (journal_) journal_->file().flush();
   if (png_) {
     pack_rows(mosaic);
     picture_->write(std::move(*png_).finish());
@@ -227,6 +269,7 @@ void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tile
   fill_stats(stats_, job_, team_, tiles, mosaic, run);
   if (stats_file_) stats_file_->write(to_json(stats_));
   if (tile_stats_file_) tile_stats_file_->write(tile_stats_csv(tile_rows(tiles, mosaic.rays(), run)));
+  pulse();
   schedule_files_->write({run, run.clock.seconds_after(total_), tiles, mosaic.rays(), phases_}, job_.area);
   // No file gets its name before all of them are written.
   picture_->commit();
@@ -235,6 +278,7 @@ void RenderLead::finish(const Mosaic& mosaic, std::span<const render::Rect> tile
   if (stats_file_) stats_file_->commit();
   if (tile_stats_file_) tile_stats_file_->commit();
   schedule_files_->commit();
+  if (journal_) journal_->file().remove();
   if (options_.quiet) return;
   for (const std::string& note : notes_) std::fprintf(stderr, "note: %s\n", note.c_str());
   print_report(stats_, options_);

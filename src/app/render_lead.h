@@ -9,6 +9,7 @@
 
 #include "app/options.h"
 #include "app/render_job.h"
+#include "app/render_journal.h"
 #include "app/report.h"
 #include "app/schedule_files.h"
 #include "app/text_output.h"
@@ -19,8 +20,8 @@
 #include "scheduler/record.h"
 #include "scheduler/stopwatch.h"
 
-// What rank 0 does besides its share of the tiles: it reads the scene, checks that every output can be written, and
-// at the end writes the picture, the statistics and the report.
+// What rank 0 does besides its share of the tiles: it reads the scene, checks that every output can be written, keeps
+// the journal, and at the end writes the picture, the statistics and the report.
 namespace tessera::app {
 
 /// A part of a render that is timed: its name and where the statistics keep its time.
@@ -53,12 +54,28 @@ class RenderLead {
   /// What the scene takes goes in here.
   io::Stats::Memory& memory() noexcept { return stats_.memory; }
 
-  /// Packs what is complete of the picture, so that little is left to do at the end. With one rank that is no gain, and
-  /// it would count as rendering.
-  void pack(const Mosaic& mosaic);
+  /// Which tiles must be rendered, a bit for each: see open_tiles.h.
+  const scheduler::Bytes& open_marks() const noexcept { return open_marks_; }
+  std::vector<render::Rect> tiles() const;
+  /// Whether there are none.
+  bool is_rendered() const noexcept { return is_rendered_; }
+
+  /// Puts what earlier runs finished in its place.
+  /// throws:  io::Error
+  void restore(Mosaic& mosaic) const;
+
+  /// To be called when the mosaic has accepted a tile: keeps it in the journal, and packs what is complete of the
+  /// picture, so that little is left to do at the end. With one rank packing is no gain, and would count as rendering.
+  /// throws:  io::Error
+  void keep(const render::Rect& tile, const render::RayCounts& rays, const Mosaic& mosaic);
+
+  /// To be called often, as long as there is something to render or write: keeps the journal going, and ends the
+  /// program if somebody wants that.
+  /// throws:  Interrupted, io::Error
+  void pulse();
 
   /// Writes every output and prints the report.
-  /// throws:  io::Error
+  /// throws:  Interrupted, io::Error
   void finish(const Mosaic& mosaic, std::span<const render::Rect> tiles, const scheduler::RunRecord& run);
 
  private:
@@ -69,6 +86,7 @@ class RenderLead {
   /// Where nobody asked for another way.
   void fall_back_to_bands();
   void open_outputs();
+  void find_open_tiles();
   void pack_rows(const Mosaic& mosaic);
   void add_phase(const PhaseKind& kind, const scheduler::Stopwatch& phase, double seconds);
 
@@ -87,6 +105,9 @@ class RenderLead {
   std::optional<TextOutput> tile_stats_file_;
   std::optional<ScheduleFiles> schedule_files_;
   std::vector<Phase> phases_;
+  std::optional<RenderJournal> journal_;  ///< opened last: what fails before leaves none behind
+  scheduler::Bytes open_marks_;
+  bool is_rendered_ = false;
 };
 
 }  // namespace tessera::app

@@ -94,8 +94,8 @@ void fill_stats(io::Stats& stats, const RenderJob& job, const Team& team, std::s
   stats.image = {job.area.width, job.area.height, scene.image.samples, scene.image.max_bounces};
   stats.mpi = {team.ranks, team.nodes, team.library};
   stats.schedule = {std::string(name_of(job.policy)),
-                    0,
-                    0,
+                    tiles.empty() ? job.tile_width : 0,
+                    tiles.empty() ? job.tile_height : 0,
                     tiles.size(),
                     job.prefetch.value_or(0),
                     std::string(name_of(job.master)),
@@ -149,6 +149,12 @@ void print_report(const io::Stats& stats, const RenderOptions& options) {
                stats.schedule.tiles, stats.schedule.tiles == 1 ? "" : "s",
                options.costs && !options.tile ? "up to " : "", stats.schedule.tile_width, stats.schedule.tile_height,
                stats.mpi.size, stats.mpi.size == 1 ? "" : "s", stats.mpi.nodes, stats.mpi.nodes == 1 ? "" : "s");
+  if (stats.resumed) {
+    const double pixels = static_cast<double>(stats.image.width) * stats.image.height;
+    std::fprintf(stderr, "resumed: %" PRIu64 " more tile%s, %.1f %% of the pixels, from %s\n", stats.resumed->tiles,
+                 stats.resumed->tiles == 1 ? "" : "s", 100 * static_cast<double>(stats.resumed->pixels) / pixels,
+                 options.journal->c_str());
+  }
   print_ranks(stats, options.verbose);
   std::fprintf(stderr,
                "load balance: efficiency %.1f %%, mean/max %.1f %%, imbalance %.1f %%, tail %s, makespan %s (Graham's "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/scene_codec.h"
 
+#include <algorithm>
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/checksum.h"
 #include "io/error.h"
 
 // Every struct is described once, by a pass() over its members that works in both directions: a Writer takes them as
@@ -172,10 +174,14 @@ void pass(Reader& stream, std::vector<T>& values) {
   for (std::uint64_t i = 0; i < count; ++i) pass(stream, values.emplace_back());
 }
 
-void pass(Writer& stream, const std::vector<render::Sphere>& spheres) {
-  pass(stream, std::uint64_t{spheres.size()});
+void write_spheres(Writer& stream, std::span<const render::Sphere> spheres) {
   stream.reserve(spheres.size() * kSphereBytes);
   for (const render::Sphere& sphere : spheres) stream.raw(&sphere, kSphereBytes);
+}
+
+void pass(Writer& stream, const std::vector<render::Sphere>& spheres) {
+  pass(stream, std::uint64_t{spheres.size()});
+  write_spheres(stream, spheres);
 }
 
 void pass(Reader& stream, std::vector<render::Sphere>& spheres) {
@@ -186,8 +192,13 @@ void pass(Reader& stream, std::vector<render::Sphere>& spheres) {
   for (std::uint64_t i = 0; i < count; ++i) stream.raw(&spheres.emplace_back(), kSphereBytes);
 }
 
+void pass_all_but_spheres(auto& stream, auto& s) {
+  pass_all(stream, s.image, s.environment, s.camera, s.materials, s.lights, s.planes);
+}
+
 void pass_scene(auto& stream, auto& s) {
-  pass_all(stream, s.image, s.environment, s.camera, s.materials, s.lights, s.planes, s.spheres);
+  pass_all_but_spheres(stream, s);
+  pass(stream, s.spheres);
 }
 
 void check_materials(const render::SceneData& scene) {
@@ -209,6 +220,25 @@ std::vector<std::byte> encode_scene(const render::SceneData& scene) {
   pass_all(stream, kMagic, kVersion);
   pass_scene(stream, scene);
   return stream.take();
+}
+
+std::uint64_t hash_of(const render::SceneData& scene) {
+  Writer stream;
+  pass_all(stream, kMagic, kVersion);
+  pass_all_but_spheres(stream, scene);
+  pass(stream, std::uint64_t{scene.spheres.size()});
+  std::uint64_t hash = checksum_of(stream.take());
+
+  // There may be too many spheres to have them twice.
+  constexpr std::size_t kPiece = 4096;
+  for (std::span<const render::Sphere> rest = scene.spheres; !rest.empty();) {
+    Writer piece;
+    const std::size_t count = std::min(kPiece, rest.size());
+    write_spheres(piece, rest.first(count));
+    hash = checksum_of(piece.take(), hash);
+    rest = rest.subspan(count);
+  }
+  return hash;
 }
 
 render::SceneData decode_scene(std::span<const std::byte> bytes) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,5 +17,8 @@ std::vector<std::byte> encode_scene(const render::SceneData& scene);
 /// scene without spheres and materials, which travel apart, whoever puts all together checks the planes' materials.
 /// throws:  Error(bad_scene) for anything that encode_scene() cannot have written, but for numbers out of range
 render::SceneData decode_scene(std::span<const std::byte> bytes);
+
+/// A hash of the bytes that encode_scene() gives, without making them all: equal scenes have equal ones.
+std::uint64_t hash_of(const render::SceneData& scene);
 
 }  // namespace tessera::io

@@ -104,6 +104,10 @@ toml::table to_table(const Stats::Faults& faults) {
                      {"lost", std::move(lost)}};
 }
 
+toml::table to_table(const Stats::Resumed& resumed) {
+  return toml::table{{"tiles", count(resumed.tiles)}, {"pixels", count(resumed.pixels)}, {"rays", count(resumed.rays)}};
+}
+
 toml::table to_table(const Stats::Error& error) {
   return toml::table{{"largest", error.largest}, {"uncertified", count(error.uncertified)}};
 }
@@ -131,6 +135,7 @@ std::string to_json(const Stats& stats) {
                   {"balance", to_table(stats.balance)},
                   {"messages", to_table(stats.messages)},
                   {"faults", to_table(stats.faults)}};
+  if (stats.resumed) all.insert("resumed", to_table(*stats.resumed));
   if (stats.error) all.insert("error", to_table(*stats.error));
   std::ostringstream json;
   json << toml::json_formatter(all) << "\n";

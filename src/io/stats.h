@@ -94,6 +94,11 @@ struct Stats {
     double wasted_s = 0;                   ///< spent on late tiles
     std::vector<std::uint32_t> lost = {};  ///< ranks that did not come to the end
   };
+  struct Resumed {
+    std::uint64_t tiles = 0;   ///< not rendered, because the journal had all of their pixels
+    std::uint64_t pixels = 0;  ///< of these tiles
+    std::uint64_t rays = 0;    ///< traced by earlier runs for what is in the journal
+  };
   struct Error {
     double largest = 0;             ///< bound on a linear channel's error, over all certified pixels
     std::uint64_t uncertified = 0;  ///< pixels with a decision that rounding might have flipped
@@ -114,7 +119,8 @@ struct Stats {
   Balance balance;
   Messages messages;
   Faults faults;
-  std::optional<Error> error;  ///< left out where it was not asked for
+  std::optional<Resumed> resumed;  ///< left out where no journal was resumed; all other counts are of this run alone
+  std::optional<Error> error;      ///< left out where it was not asked for
 };
 
 /// One JSON object, keys in alphabetical order, ending in a newline. A double that isn't finite becomes the string

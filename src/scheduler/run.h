@@ -17,8 +17,9 @@ namespace tessera::scheduler {
 /// the last acceptance; the call returns when every worker has gone home or is given up. With one rank no message is
 /// sent.
 /// throws:  std::invalid_argument where the plan is not feasible, std::runtime_error where a rank breaks the protocol,
-///          and what `work` and `accept` throw. The other ranks then wait for ever: the caller ends them.
-RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, const Accept& accept);
+///          and what `work`, `accept` and `pulse` throw. The other ranks then wait for ever: the caller ends them.
+RunRecord run_master(
+    Transport& transport, const Plan& plan, const Work& work, const Accept& accept, const Pulse& pulse = [] {});
 
 /// Renders what the plan says and rank 0 assigns until it says stop. The plan is the same on all ranks. The times of its
 /// results are those of `clock`, for a caller who knows how that one differs from rank 0's.
@@ -28,7 +29,8 @@ void run_worker(Transport& transport, const Plan& plan, const Work& work, const 
 /// The same with all ranks in this thread: a random rank takes the next step, messages arrive in a random order, and
 /// both follow from `seed`. One rank does without either. Nobody is given up, for ranks that take turns keep no time.
 /// throws:  as run_master and run_worker; std::logic_error if no rank makes progress any more
-RunRecord run_in_process(std::uint32_t ranks, std::uint64_t seed, const Plan& plan, const Work& work,
-                         const Accept& accept);
+RunRecord run_in_process(
+    std::uint32_t ranks, std::uint64_t seed, const Plan& plan, const Work& work, const Accept& accept,
+    const Pulse& pulse = [] {});
 
 }  // namespace tessera::scheduler

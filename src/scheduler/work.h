@@ -19,4 +19,8 @@ using Work = std::function<Bytes(TaskId, const std::function<void()>& between_sl
 /// own task as well. The bytes are gone when it returns.
 using Accept = std::function<void(TaskId, std::span<const std::byte>)>;
 
+/// Called on rank 0 between its steps and between the slices of its own tasks, every millisecond or more often, until
+/// the run ends. What it throws ends the run.
+using Pulse = std::function<void()>;
+
 }  // namespace tessera::scheduler

@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(every_render_option_is_understood) {
        "--tile-size", "7x5",   "--schedule", "guided",    "--master",     "dedicated", "--prefetch", "3",
        "--kernel",    "brute", "--stats",    "-",         "--tile-stats", "t.csv",     "--progress", "plain",
        "--trace",     "-",     "--cost-map", "c.png",     "--owner-map",  "o.png",     "-q",         "-v",
-       "--costs",     "c.csv"});
+       "--costs",     "c.csv", "--journal",  "a.journal", "--resume"});
   BOOST_TEST(options.output == "a.ppm");
   BOOST_TEST(options.bits == 16u);
   BOOST_TEST(options.resolution->width == 64u);
@@ -78,6 +78,8 @@ BOOST_AUTO_TEST_CASE(every_render_option_is_understood) {
   BOOST_TEST((options.master == scheduler::MasterRole::dedicated));
   BOOST_TEST(options.prefetch.value() == 3u);
   BOOST_TEST((options.kernel == render::Kernel::brute));
+  BOOST_TEST(options.journal.value() == "a.journal");
+  BOOST_TEST(options.resume);
   BOOST_TEST(options.stats.value() == "-");
   BOOST_TEST(options.tile_stats.value() == "t.csv");
   BOOST_TEST(options.costs.value() == "c.csv");
@@ -161,6 +163,8 @@ BOOST_AUTO_TEST_CASE(what_is_missing_or_too_much_is_named) {
   BOOST_TEST(contains(complaint({"render"}), "INPUT"));
   BOOST_TEST(contains(complaint({"compare", "a.png"}), "B"));
   BOOST_TEST(contains(complaint({"render", "a.toml", "b.toml"}), "b.toml"));
+  BOOST_TEST(contains(complaint({"render", "a.toml", "--resume"}), "--journal FILE --resume"));
+  BOOST_TEST(contains(complaint({"render", "a.toml", "--journal", "-"}), "--journal"));
   BOOST_TEST(contains(complaint({"compare", "a.png", "b.png", "--tolerance", "-1"}), "tolerance"));
 }
 

@@ -111,6 +111,28 @@ BOOST_AUTO_TEST_CASE(equal_scenes_are_equal_bytes_whatever_lies_in_the_padding) 
   BOOST_TEST((encode_scene(a) == encode_scene(b)));
 }
 
+// Spheres are hashed in pieces of 4,096.
+BOOST_AUTO_TEST_CASE(any_byte_of_a_scene_changes_its_hash) {
+  SceneData scene = full_scene();
+  scene.spheres.resize(5'000, scene.spheres[0]);
+  const std::uint64_t hash = hash_of(scene);
+  BOOST_TEST(hash_of(decode_scene(encode_scene(scene))) == hash);
+  const auto other_hash = [&](auto change) {
+    SceneData other = scene;
+    change(other);
+    return hash_of(other);
+  };
+  BOOST_TEST(other_hash([](SceneData& s) { s.image.samples = 4; }) != hash);
+  BOOST_TEST(other_hash([](SceneData& s) { s.camera->fov += 1e-9; }) != hash);
+  BOOST_TEST(other_hash([](SceneData& s) { s.lights.pop_back(); }) != hash);
+  BOOST_TEST(other_hash([](SceneData& s) { s.spheres.pop_back(); }) != hash);
+  BOOST_TEST(other_hash([](SceneData& s) { s.spheres.resize(4096); }) != hash);
+  for (const std::size_t i : {0u, 4095u, 4096u, 4999u}) {
+    BOOST_TEST(other_hash([&](SceneData& s) { s.spheres[i].center.x = 0.25; }) != hash);
+    BOOST_TEST(other_hash([&](SceneData& s) { s.spheres[i].material = MaterialIndex{0}; }) != hash);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(every_truncation_is_refused) {
   const auto bytes = encode_scene(full_scene());
   for (std::size_t size = 0; size < bytes.size(); ++size) {

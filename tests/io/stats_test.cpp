@@ -69,6 +69,13 @@ BOOST_AUTO_TEST_CASE(json_has_every_key_that_scripts_rely_on) {
       R"("version":"1.2.3"})");
 }
 
+BOOST_AUTO_TEST_CASE(json_tells_of_a_journal_only_where_one_was_resumed) {
+  Stats stats;
+  BOOST_TEST(!contains(packed_json(stats), "resumed"));
+  stats.resumed = {25, 26, 27};
+  BOOST_TEST(contains(packed_json(stats), R"("resumed":{"pixels":26,"rays":27,"tiles":25},)"));
+}
+
 BOOST_AUTO_TEST_CASE(json_strings_are_escaped) {
   Stats stats;
   stats.command = "a\"b\\c\nd\te\x01\u00e9";

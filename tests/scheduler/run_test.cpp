@@ -199,6 +199,25 @@ BOOST_AUTO_TEST_CASE(what_the_work_throws_comes_out) {
   }
 }
 
+// Rank 0 looks up between the slices of a task that never ends, and while it has nothing to do.
+BOOST_AUTO_TEST_CASE(what_the_pulse_throws_ends_the_run) {
+  const Work endless = [](TaskId, const std::function<void()>& between_slices) -> Bytes {
+    while (true) between_slices();
+  };
+  int beats = 0;
+  const Pulse pulse = [&] {
+    if (++beats == 100) throw std::domain_error("enough");
+  };
+  BOOST_CHECK_THROW(run_in_process(
+                        1, 0, plan_of(Policy::dynamic, 1), endless, [](TaskId, auto) {}, pulse),
+                    std::domain_error);
+  beats = 0;
+  const Plan idle_master = plan_of(Policy::dynamic, 1'000, MasterRole::dedicated);
+  BOOST_CHECK_THROW(run_in_process(
+                        2, 0, idle_master, work, [](TaskId, auto) {}, pulse),
+                    std::domain_error);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_work_is_refused) {
   const auto refused = [](std::uint32_t ranks, const Plan& plan) {
     BOOST_CHECK_THROW(run_in_process(ranks, 0, plan, work, [](TaskId, auto) {}), std::invalid_argument);
