@@ -6,6 +6,7 @@ endif()
 
 option(TESSERA_BUILD_TESTS "Build the tests" ON)
 option(TESSERA_BUILD_BENCHMARKS "Build the benchmark programs" OFF)
+option(TESSERA_SIMULATION "Build tessera_simulate, which runs the scheduler on simulated clusters" OFF)
 option(TESSERA_WARNINGS_AS_ERRORS "Fail on a compiler warning (CI does)" OFF)
 option(TESSERA_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 

@@ -4,6 +4,7 @@
 #   scripts/install_packages.sh          to build and render
 #   scripts/install_packages.sh test     to run the tests too
 #   scripts/install_packages.sh bench    to build the benchmark programs too
+#   scripts/install_packages.sh simulate to build and run the simulator of clusters too
 #   scripts/install_packages.sh peers    to measure other ray tracers beside it (scripts/compare_peers.py)
 set -euo pipefail
 
@@ -24,6 +25,13 @@ if [ "${1:-}" = peers ]; then
   packages+=(
     libembree-dev tachyon povray        # other ray tracers
     python3-matplotlib                  # the chart, and its arrays
+  )
+fi
+if [ "${1:-}" = simulate ]; then
+  packages+=(
+    libsimgrid-dev                      # ranks and networks that are not there
+    libboost-test-dev python3           # the tests of the same build
+    python3-matplotlib                  # the plot
   )
 fi
 if [ "${1:-}" = test ]; then

@@ -150,7 +150,7 @@ ExitCode lead_ranks(Session& session, const RenderOptions& options, const std::s
         const Stopwatch clock;
         std::vector<scheduler::ClockOffset> offsets;
         if (lead->job().compares_clocks) offsets = measure_clock_offsets(session, clock);
-        scheduler::RunRecord run = scheduler::run_master(transport, plan, work_accept_pulse...);
+        scheduler::RunRecord run = scheduler::run_master(transport, plan, work_accept_pulse..., clock);
         if (!offsets.empty()) set_clock_offsets(run, offsets, clock);
         return run;
       });

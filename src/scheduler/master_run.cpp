@@ -51,10 +51,11 @@ Traffic total(const Transport& transport) {
 
 }  // namespace
 
-MasterRun::MasterRun(Transport& transport, Plan plan, Work work, Accept accept)
+MasterRun::MasterRun(Transport& transport, Plan plan, Work work, Accept accept, const Stopwatch& clock)
     : transport_(transport),
       plan_(std::move(plan)),
       accept_(std::move(accept)),
+      clock_(clock),
       master_(plan_, transport.size()),
       work_(std::move(work), clock_, [this] { serve(); }),
       processes_(transport.size()),

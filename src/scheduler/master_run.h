@@ -22,9 +22,9 @@ namespace tessera::scheduler {
 /// With one rank it is the same, and no message is sent.
 class MasterRun {
  public:
-  /// The rank's clock starts here. `transport` must outlive this.
+  /// The times of the record are those of `clock`. `transport` must outlive this.
   /// throws:  std::invalid_argument where the plan is not feasible
-  MasterRun(Transport& transport, Plan plan, Work work, Accept accept);
+  MasterRun(Transport& transport, Plan plan, Work work, Accept accept, const Stopwatch& clock = Stopwatch());
 
   /// Takes the messages that are here and does at most one task of its own.
   /// throws:  std::runtime_error on a message that breaks the protocol; what `work` and `accept` throw

@@ -19,7 +19,7 @@ struct TaskRecord {
   double start_s = 0;
   double end_s = 0;  ///< start plus the time spent on the task, without messages served in between
   std::size_t bytes = 0;
-  double assigned_s = 0;  ///< rank 0 is about to hand it to this rank
+  double assigned_s = 0;  ///< rank 0 is about to hand it to this rank; 0: the rank began with it
   double received_s = 0;  ///< rank 0 has the result
   double accepted_s = 0;  ///< the result is in its place
 };
@@ -63,7 +63,7 @@ struct RunRecord {
   Traffic messages;  ///< sent and received by rank 0
   Faults faults;
   std::vector<LostRank> lost;
-  Stopwatch clock;   ///< rank 0's, whose times these are
+  Stopwatch clock;  ///< rank 0's, whose times these are
 };
 
 }  // namespace tessera::scheduler

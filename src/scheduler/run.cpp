@@ -41,9 +41,9 @@ struct PulsedMaster {
 
 }  // namespace
 
-RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, const Accept& accept,
-                     const Pulse& pulse) {
-  MasterRun master(transport, plan, with_pulse(work, pulse), accept);
+RunRecord run_master(Transport& transport, const Plan& plan, const Work& work, const Accept& accept, const Pulse& pulse,
+                     const Stopwatch& clock) {
+  MasterRun master(transport, plan, with_pulse(work, pulse), accept, clock);
   PulsedMaster pulsed{master, pulse};
   run_to_end(pulsed, transport);
   return master.take_record();

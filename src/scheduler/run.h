@@ -15,14 +15,15 @@ namespace tessera::scheduler {
 
 /// Hands out the plan's tasks, accepts each result once, and renders too if its role says so. The makespan ends with
 /// the last acceptance; the call returns when every worker has gone home or is given up. With one rank no message is
-/// sent.
+/// sent. The times of the record are those of `clock`.
 /// throws:  std::invalid_argument where the plan is not feasible, std::runtime_error where a rank breaks the protocol,
 ///          and what `work`, `accept` and `pulse` throw. The other ranks then wait for ever: the caller ends them.
 RunRecord run_master(
-    Transport& transport, const Plan& plan, const Work& work, const Accept& accept, const Pulse& pulse = [] {});
+    Transport& transport, const Plan& plan, const Work& work, const Accept& accept, const Pulse& pulse = [] {},
+    const Stopwatch& clock = Stopwatch());
 
-/// Renders what the plan says and rank 0 assigns until it says stop. The plan is the same on all ranks. The times of its
-/// results are those of `clock`, for a caller who knows how that one differs from rank 0's.
+/// Renders what the plan says and rank 0 assigns until it says stop. The plan is the same on all ranks. The times of
+/// its results are those of `clock`, for a caller who knows how that one differs from rank 0's.
 /// throws:  std::runtime_error on a message that it cannot follow, and what `work` throws
 void run_worker(Transport& transport, const Plan& plan, const Work& work, const Stopwatch& clock = Stopwatch());
 

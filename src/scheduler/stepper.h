@@ -19,13 +19,13 @@ enum class Step : std::uint8_t {
 
 /// Steps until finished, giving way while idle.
 template <class Stepper>
-void run_to_end(Stepper& stepper, const Transport& transport) {
+void run_to_end(Stepper& stepper, Transport& transport) {
   Backoff backoff(transport.patience());
   for (Step step = stepper.step(); step != Step::finished; step = stepper.step()) {
     if (step == Step::worked) {
       backoff.reset();
     } else {
-      backoff.wait();
+      transport.wait_for_message(backoff);
     }
   }
 }

@@ -19,7 +19,8 @@ struct Envelope {
   std::span<const std::byte> bytes;  ///< gone with the next `receive`
 };
 
-/// Messages arrive complete and once, in any order, between the same two ranks too. No call waits, except flush.
+/// Messages arrive complete and once, in any order, between the same two ranks too. No call waits, except flush and
+/// wait_for_message.
 class Transport {
  public:
   Transport() = default;
@@ -46,6 +47,10 @@ class Transport {
     }
     return envelope;
   }
+
+  /// To be called where `receive` found nothing: gives way for a while, as `backoff` says, or, where time is simulated,
+  /// until there is something to receive.
+  virtual void wait_for_message(Backoff& backoff) { backoff.wait(); }
 
   /// Moves on what was sent, and says whether all of it has left, but for what went to abandoned ranks.
   virtual bool try_flush() = 0;
