@@ -38,6 +38,7 @@ if [ "${1:-}" = test ]; then
   packages+=(
     libboost-test-dev                   # unit tests
     python3                             # command line tests, comparison scripts
+    iproute2                            # several hosts on one machine
     tachyon-doc                         # other people's scenes
   )
 fi

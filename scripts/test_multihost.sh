@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Three hosts on one machine: network namespaces on a bridge, each with a name of its own, and mpirun across them over
-# TCP. Checks the picture, kills and stops ranks, and checks again. Needs root and iproute2; exits with 77 where a
-# namespace cannot be made.
+# Three hosts on one machine: network namespaces on a bridge, each with a name of its own, and tessera-run across them
+# over TCP. Checks the picture, kills and stops ranks, kills a host's daemon, and checks again. Needs root and iproute2;
+# exits with 77 where a namespace cannot be made.
 #   scripts/test_multihost.sh PROGRAM        the tessera to test, for example build/release/tessera
 set -euo pipefail
 tessera=$(realpath "${1:?which program to test, for example build/release/tessera}")
@@ -47,8 +47,12 @@ exec ip netns exec "$host" unshare --uts bash -c "hostname $host; $*"
 AGENT
 chmod +x "$folder/on_host"
 
-mpirun="$folder/on_host $subnet.1 exec mpirun --mca plm_rsh_agent $folder/on_host --mca btl tcp,self
-  --mca btl_tcp_if_include $subnet.0/24 --mca oob_tcp_if_include $subnet.0/24
-  --host $subnet.1:1,$subnet.2:2,$subnet.3:1"
-OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
-  python3 tests/app/multihost_test.py --tessera "$tessera" --mpirun "$mpirun"
+cat >"$folder/mpirun_on_hosts" <<LAUNCHER
+#!/usr/bin/env bash
+exec ip netns exec tessera-1 unshare --uts bash -c 'hostname tessera-1; exec mpirun "\$@"' mpirun \\
+  --mca plm_rsh_agent $folder/on_host --mca btl tcp,self --mca btl_tcp_if_include $subnet.0/24 \\
+  --mca oob_tcp_if_include $subnet.0/24 --host $subnet.1:1,$subnet.2:2,$subnet.3:1 "\$@"
+LAUNCHER
+chmod +x "$folder/mpirun_on_hosts"
+
+python3 tests/app/multihost_test.py --tessera "$tessera" --mpirun "$folder/mpirun_on_hosts"

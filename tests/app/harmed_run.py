@@ -53,7 +53,8 @@ def processes_of(folder):
     ranks = {}
     for path in pathlib.Path("/proc").glob("[0-9]*"):
         try:
-            if pathlib.Path(os.readlink(path / "cwd")) != folder.resolve():
+            is_ours = pathlib.Path(os.readlink(path / "cwd")) == folder.resolve()
+            if not is_ours or (path / "comm").read_text(encoding="ascii").strip() != "tessera":
                 continue
             variables = (path / "environ").read_bytes().split(b"\0")
         except OSError:
@@ -69,7 +70,6 @@ class HarmedRunTest(ProgramTest):
     """Knows the picture as one process renders it."""
 
     ranks = 4
-    launcher = ["mpirun", "--oversubscribe"]
 
     def setUp(self):
         super().setUp()
@@ -78,10 +78,14 @@ class HarmedRunTest(ProgramTest):
         self.assertEqual(alone.returncode, 0, alone.stderr)
         self.picture = (self.folder / "alone.png").read_bytes()
 
+    def launch(self):
+        """What starts the ranks, up to the program's own options."""
+        return ["mpirun", "--oversubscribe", "--enable-recovery", "-n", str(self.ranks), self.tessera, "render"]
+
     def render_while(self, harm, *options):
         """Renders with all ranks, does `harm` to {rank: process} meanwhile, and returns the statistics."""
-        command = [*self.launcher, "--enable-recovery", "-n", str(self.ranks), self.tessera, "render", str(self.scene),
-                   "-o", "out.png", "-q", "--lease", str(LEASE_S), "--stats", "stats.json", *options]
+        command = [*self.launch(), str(self.scene), "-o", "out.png", "-q", "--lease", str(LEASE_S), "--stats",
+                   "stats.json", *options]
         job = subprocess.Popen(command, cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True)
         try:

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kTag = 1;  // the transport has 0
 
-/// What rank 0 tells the others: whether to finalise MPI, then the processes to end first.
+/// What rank 0 tells the others: 1 where a rank is lost, then the processes to end.
 using Farewell = std::vector<std::uint32_t>;
 
 bool is_lost(const RunRecord& run, Rank rank) {
@@ -37,14 +37,14 @@ const RankRecord* find_rank_on(const RunRecord& run, const std::string& host) {
 
 void act_on(Session& session, const Farewell& farewell) {
   for (const std::uint32_t process : std::span(farewell).subspan(1)) end_process(process);
-  if (farewell[0] == 0) session.never_finalize();
+  if (farewell[0] == 1) session.note_lost_rank();
 }
 
 }  // namespace
 
 void dismiss(Session& session, const RunRecord& run) {
-  const std::uint32_t finalizes = run.lost.empty() ? 1 : 0;
-  std::vector<Farewell> farewells(session.size(), Farewell{finalizes});
+  const std::uint32_t is_lost_one = run.lost.empty() ? 0 : 1;
+  std::vector<Farewell> farewells(session.size(), Farewell{is_lost_one});
   for (const LostRank& lost : run.lost) {
     const RankRecord* neighbour = find_rank_on(run, lost.host);
     if (neighbour != nullptr && lost.pid != 0) farewells[neighbour->rank].push_back(lost.pid);

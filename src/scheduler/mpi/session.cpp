@@ -2,10 +2,12 @@
 #include "scheduler/mpi/session.h"
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -22,6 +24,7 @@ namespace tessera::scheduler::mpi {
 namespace {
 
 constexpr int kInternalError = 70;  // EX_SOFTWARE of sysexits.h
+constexpr unsigned kSecondsToFinalize = 2;
 
 void initialize(int& argc, char**& argv) {
   // On an oversubscribed node Open MPI gives the core away at every look at the mail that finds none, between the
@@ -120,9 +123,11 @@ Session::Session(int& argc, char**& argv, std::uint32_t most_on_node) : exceptio
 
 Session::~Session() {
   if (std::uncaught_exceptions() > exceptions_before_) abort(kInternalError);
-  if (!finalizes_) {
+  if (rank_is_lost_) {
+    // Every file is written by now.
     std::fflush(nullptr);
-    std::_Exit(0);
+    std::signal(SIGALRM, [](int) { std::_Exit(0); });
+    ::alarm(kSecondsToFinalize);
   }
   first_ranks_.reset();
   node_.reset();

@@ -77,8 +77,9 @@ class Session {
   /// How this rank waits for others.
   Patience patience() const noexcept { return oversubscribed_ ? Patience::yield_only : Patience::spin_first; }
 
-  /// When the session ends, the process ends with code 0 without finalising MPI, see farewell.h.
-  void never_finalize() noexcept { finalizes_ = false; }
+  /// When the session ends, finalising MPI has two seconds; where it hangs, the process ends with code 0. See
+  /// farewell.h.
+  void note_lost_rank() noexcept { rank_is_lost_ = true; }
 
   /// Ends every rank of the job at once; `code` becomes the job's exit code.
   [[noreturn]] void abort(int code) noexcept;
@@ -89,7 +90,7 @@ class Session {
   friend class NodeCores;
 
   int exceptions_before_;
-  bool finalizes_ = true;
+  bool rank_is_lost_ = false;
   std::unique_ptr<Communicator> communicator_;
   std::unique_ptr<Communicator> node_;
   std::unique_ptr<Communicator> first_ranks_;  ///< of all nodes; null where this is none of them
