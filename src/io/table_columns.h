@@ -35,7 +35,8 @@ struct TableColumns {
 
 /// Understands the names in a heading line or a TOML array: x, y, z, r or radius, red, green, blue and material, in any
 /// order and case. The first four are required, the colours come together or not at all. Another name is an unused
-/// column, unless it looks mistyped. throws:  Error(bad_scene)
+/// column, unless it looks mistyped.
+/// throws:  Error(bad_scene)
 TableColumns name_columns(const std::vector<PlacedWord>& names);
 
 /// What a row of so many fields holds where nobody says it: x y z r [r g b] [material]; empty where that can't be.

@@ -18,8 +18,8 @@ struct TileTime {
 };
 
 /// Reads tile statistics: a header line that names the columns, of which x, y, width, height, start_s and end_s are
-/// used, and a line for each tile, in any order. There is at least one, and together they fill a rectangle. throws:
-/// Error(bad_scene / input_missing / io_failure)
+/// used, and a line for each tile, in any order. There is at least one, and together they fill a rectangle.
+/// throws:  Error(bad_scene / input_missing / io_failure)
 std::vector<TileTime> read_tile_times(const std::filesystem::path& path);
 
 /// The same from the text of a file; `file` is its name for messages.

@@ -28,8 +28,8 @@ inline constexpr std::uint32_t kShortestCutSide = 8;
 
 /// Cuts `area` into squares of side `longest`, the next power of two, and halves those that are dear: no tile costs
 /// more than `most_for` what is left of the cost, which is its own and that of all that are no dearer. The dearest
-/// comes first, so tiles shrink towards the end. One that cannot be halved any more may cost more. units:   costs: any,
-/// the same for all; cost_of and most_for give values that are finite and >= 0
+/// comes first, so tiles shrink towards the end. One that cannot be halved any more may cost more.
+/// units:   costs: any, the same for all; cost_of and most_for give values that are finite and >= 0
 std::vector<CostedTile> cut_by_cost(const Rect& area, std::uint32_t longest,
                                     const std::function<double(const Rect&)>& cost_of,
                                     const std::function<double(double left)>& most_for);

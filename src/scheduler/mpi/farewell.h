@@ -3,9 +3,9 @@
 
 #include "scheduler/record.h"
 
-// How a job ends. MPI_Finalize waits for every process of the job. Where one is stopped it waits for ever, and where one
-// was killed it sometimes does (Open MPI 4.1.4), while mpirun across hosts waits for ranks that never finalised. So once
-// a rank is lost, what is left of it is ended, and the others finalise for two seconds at most.
+// How a job ends. MPI_Finalize waits for every process of the job. Where one is stopped it waits for ever, and where
+// one was killed it sometimes does (Open MPI 4.1.4), while mpirun across hosts waits for ranks that never finalised. So
+// once a rank is lost, what is left of it is ended, and the others finalise for two seconds at most.
 namespace tessera::scheduler::mpi {
 
 class Session;
