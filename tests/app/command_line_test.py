@@ -11,23 +11,12 @@ import struct
 import subprocess
 
 import running_program
-from running_program import BAD_SCENE, CANNOT_CREATE, INPUT_MISSING, IO_FAILURE, TIME_LIMIT_S, USAGE
+from running_program import BAD_SCENE, CANNOT_CREATE, INPUT_MISSING, IO_FAILURE, MIRROR_SCENE, TIME_LIMIT_S, USAGE
 
-SMALL_SCENE = """
+SMALL_SCENE = MIRROR_SCENE + """
 [image]
 width = 40
 height = 30
-[camera]
-eye = [0, -4, 2]
-target = [0, 0, 0]
-[[light]]
-position = [3, -3, 5]
-[material.mirror]
-reflection = 0.5
-[[sphere]]
-center = [0, 0, 0]
-radius = 1
-material = "mirror"
 [[plane]]
 point = [0, 0, -1]
 normal = [0, 0, 1]

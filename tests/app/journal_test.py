@@ -12,24 +12,13 @@ import subprocess
 import time
 
 import running_program
-from running_program import BAD_SCENE, CANNOT_CREATE, ENVIRONMENT, IO_FAILURE, TIME_LIMIT_S, USAGE
+from running_program import BAD_SCENE, CANNOT_CREATE, ENVIRONMENT, IO_FAILURE, MIRROR_SCENE, TIME_LIMIT_S, USAGE
 
-SCENE = """
+SCENE = MIRROR_SCENE + """
 [image]
 width = 61
 height = 47
 samples = 4
-[camera]
-eye = [0, -4, 2]
-target = [0, 0, 0]
-[[light]]
-position = [3, -3, 5]
-[material.mirror]
-reflection = 0.5
-[[sphere]]
-center = [0, 0, 0]
-radius = 1
-material = "mirror"
 [generate]
 kind = "sphereflake"
 level = 2

@@ -13,6 +13,21 @@ TIME_LIMIT_S = 60
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                             "HWLOC_HIDE_ERRORS": "2"}
 
+# A mirror in front of a camera, to be gone on with
+MIRROR_SCENE = """
+[camera]
+eye = [0, -4, 2]
+target = [0, 0, 0]
+[[light]]
+position = [3, -3, 5]
+[material.mirror]
+reflection = 0.5
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "mirror"
+"""
+
 USAGE, BAD_SCENE, INPUT_MISSING, CANNOT_CREATE, IO_FAILURE = 64, 65, 66, 73, 74
 
 

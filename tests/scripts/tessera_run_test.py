@@ -9,20 +9,9 @@ import subprocess
 import time
 
 import running_program
-from running_program import BAD_SCENE, CANNOT_CREATE, ENVIRONMENT, INPUT_MISSING, TIME_LIMIT_S, USAGE
+from running_program import BAD_SCENE, CANNOT_CREATE, ENVIRONMENT, INPUT_MISSING, MIRROR_SCENE, TIME_LIMIT_S, USAGE
 
-SCENE = """
-[camera]
-eye = [0, -4, 2]
-target = [0, 0, 0]
-[[light]]
-position = [3, -3, 5]
-[material.mirror]
-reflection = 0.5
-[[sphere]]
-center = [0, 0, 0]
-radius = 1
-material = "mirror"
+SCENE = MIRROR_SCENE + """
 [generate]
 kind = "sphereflake"
 level = 2
